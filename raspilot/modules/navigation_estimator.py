@@ -10,7 +10,7 @@ from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
-from up.commands.orientation_command import OrientationCommand
+from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.servo_command import ServoCommand
 from up.commands.telemetry_schema import READINGS
 from up.flight_modes.navigation_file import NAVIGATION
@@ -61,7 +61,9 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.location.subscribe(self._on_location)
         self.altitude.subscribe(self._on_altitude)
         self.heading.subscribe(self._on_heading)
-        self.up.command_executor.register_command(ServoCommand, self._on_servos)
+        executor = self.up.command_executor
+        executor.register_command(ServoCommand, self._on_servos)
+        executor.register_command(AccelerationCommand, self._on_acceleration)
 
     @property
     def state(self) -> NavigationState | None:
@@ -146,7 +148,6 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             value.bearing_deg,
         )
         self.estimator.fix(fix, now_s)
-        self._report_motor()
 
     def _on_altitude(self, reading: Reading[float]) -> None:
         self._is_old = True
@@ -158,6 +159,11 @@ class NavigationEstimator(BaseProvider[NavigationState]):
 
     def _on_servos(self, command: ServoCommand) -> None:
         self.estimator.throttle((command.throttle_us - LOWEST_US) / RANGE_US)
+
+    def _on_acceleration(self, command: AccelerationCommand) -> None:
+        self._is_old = True
+        self.estimator.acceleration(self._seconds(), command.forward_m_s2)
+        self._report_motor()
 
     def _report_motor(self) -> None:
         is_stopped = self.estimator.motor.is_stopped

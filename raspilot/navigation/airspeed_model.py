@@ -12,8 +12,7 @@ class AirspeedModel:
 
     The angle of attack of the present lift gives the climb from the pitch. ``thrust_m_s2`` is the
     acceleration by a working motor, ``coast_m_s2`` that by drag and climb. With ``motor_stopped``
-    the model has no thrust, and both are those of ``measured_m_s``, the airspeed that the last fix
-    has shown: if the motor works, the model is far from it.
+    the model has no thrust.
     """
 
     def __init__(self, model: AirframeModel) -> None:
@@ -21,8 +20,7 @@ class AirspeedModel:
         self.climb_m_s = self.thrust_m_s2 = self.coast_m_s2 = 0.0
         self._slowest = 0.85 * model.speeds.stall_m_s
         self._fastest = 2.5 * model.speeds.cruise_m_s
-        self.measured_m_s = model.speeds.cruise_m_s
-        self.restart(self.measured_m_s, motor_stopped=False)
+        self.restart(model.speeds.cruise_m_s, motor_stopped=False)
 
     def restart(self, airspeed_m_s: float, *, motor_stopped: bool) -> None:
         """Continue from an airspeed, with or without thrust."""
@@ -33,14 +31,8 @@ class AirspeedModel:
         """Advance by ``dt_s``."""
         speed, load = self.airspeed_m_s, load_of(roll_deg)
         self.climb_m_s, self.coast_m_s2 = self._motion(speed, load, pitch_deg)
-        change = self.coast_m_s2
-        if self.motor_stopped:
-            measured = self._limited(self.measured_m_s)
-            _, self.coast_m_s2 = self._motion(measured, load, pitch_deg)
-            self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / measured
-        else:
-            self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / speed
-            change += self.thrust_m_s2
+        self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / speed
+        change = self.coast_m_s2 + (0.0 if self.motor_stopped else self.thrust_m_s2)
         self.airspeed_m_s = self._limited(speed + change * dt_s)
 
     def _motion(self, speed: float, load: float, pitch_deg: float) -> tuple[float, float]:

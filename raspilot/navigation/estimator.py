@@ -34,8 +34,8 @@ MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
 GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
 GAP_SD_M_S = 5.0
-FIRST_TURN_DEG = 60.0
-"""Before the nose has turned by this since take-off the motor is not judged."""
+FELT_BEGIN_S, FELT_END_S = 0.5, 0.2
+"""How long before its arrival an acceleration was felt."""
 MEASURED_S = 2.5
 """How long the airspeed that a fix has shown is continued by the model."""
 MOVED_SD_M = 10.0
@@ -64,10 +64,10 @@ class Estimator:
         self._fixed: AirPoint | None = None
         self._velocity_m_s = (0.0, 0.0)
         self._measured: AirPoint | None = None
+        self._measured_m_s = 0.0
         self._roll_deg = self._pitch_deg = 0.0
         self._throttle = 0.0
         self._compass_offset_rad: float | None = None
-        self._straight_deg: float | None = None
 
     @property
     def rejected(self) -> dict[str, int]:
@@ -87,6 +87,17 @@ class Estimator:
         """Take the throttle that the motor gets, 0 to 1."""
         if math.isfinite(throttle):
             self._throttle = min(1.0, max(0.0, throttle))
+
+    def acceleration(self, time_s: float, forward_m_s2: float) -> None:
+        """Take an acceleration along the nose, without gravity."""
+        begin, end = (self._path.at(time_s - age_s) for age_s in (FELT_BEGIN_S, FELT_END_S))
+        if not self.is_in_flight or begin is None or end is None:
+            return
+        if not math.isfinite(forward_m_s2):
+            return
+        gained_m_s = self.motor.acceleration(forward_m_s2, begin, end)
+        if gained_m_s is not None:
+            self._change_thrust(gained_m_s)
 
     def compass(self, time_s: float, heading_deg: float) -> None:
         """Take a measured heading; it counts little: magnets and motors are near."""
@@ -227,16 +238,16 @@ class Estimator:
             heading_sd_deg=min(180.0, heading_sd),
             fix_age_s=now.time_s - then.time_s,
             motor_stopped=self.motor.is_stopped,
-            measured_airspeed_m_s=self._measured_m_s(now),
+            measured_airspeed_m_s=self._measured_at(now),
             is_in_flight=in_flight,
         )
 
-    def _measured_m_s(self, now: AirPoint) -> float | None:
+    def _measured_at(self, now: AirPoint) -> float | None:
         """Return the airspeed of the last fix, and what the model adds since."""
         then = self._measured
         if then is None or now.time_s - then.time_s > MEASURED_S or not self.is_in_flight:
             return None
-        speed = self._model.measured_m_s + now.coast_m_s - then.coast_m_s
+        speed = self._measured_m_s + now.coast_m_s - then.coast_m_s
         return speed if self.motor.is_stopped else speed + now.thrust_m_s - then.thrust_m_s
 
     def _jump(self, turned_rad: float) -> None:
@@ -288,7 +299,6 @@ class Estimator:
             if velocity is not None:
                 self._horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
             self.motor = MotorWatch()
-            self._straight_deg = at.yaw_deg
             # Held in a hand the model has lost its airspeed.
             airspeed_m_s = max(self._model.airspeed_m_s, self._cruise_m_s)
             self._model.restart(airspeed_m_s, motor_stopped=False)
@@ -317,43 +327,25 @@ class Estimator:
             horizontal.fuse_offset(self._compass_offset_rad, math.radians(COMPASS_SD_DEG))
             self._compass_offset_rad = None
         if velocity is not None and horizontal.is_oriented:
-            self._watch_motor(at, velocity)
+            self._measure_airspeed(at, velocity)
         variance = horizontal.p[4][4] + horizontal.p[5][5]
         self._wind.add(horizontal.x[4], horizontal.x[5], variance, dt)
 
-    def _watch_motor(self, at: AirPoint, velocity: tuple[float, float]) -> None:
-        """Compare the change of the airspeed with the thrust that the throttle demands."""
-        horizontal = self._horizontal
-        assert horizontal is not None
-        length = abs(horizontal.factor)
-        nose = horizontal.factor * cmath.rect(1.0 / length, math.radians(at.yaw_deg))
-        ground, wind = complex(*velocity), complex(self._wind.north_m_s, self._wind.east_m_s)
-        self._model.measured_m_s = ((ground - wind) * nose.conjugate()).real
-        self._measured = at
-        variance = horizontal.p[4][4] + horizontal.p[5][5]
-        factor = self._model.measured_m_s / math.hypot(at.north_m_s, at.east_m_s)
-        # Before the first turn a head wind looks like a thrust that is missing.
-        if self._straight_deg is not None:
-            if abs(math.remainder(at.yaw_deg - self._straight_deg, 360.0)) < FIRST_TURN_DEG:
-                return
-            self._straight_deg = None
-        if self.motor.fix(at, ground, nose, wind, variance, factor):
-            self._change_thrust(at)
+    def _measure_airspeed(self, at: AirPoint, velocity: tuple[float, float]) -> None:
+        """Take the ground velocity less the wind, along the nose."""
+        assert self._horizontal is not None
+        factor = self._horizontal.factor
+        nose = factor * cmath.rect(1.0 / abs(factor), math.radians(at.yaw_deg))
+        air = complex(*velocity) - complex(self._wind.north_m_s, self._wind.east_m_s)
+        self._measured, self._measured_m_s = at, (air * nose.conjugate()).real
 
-    def _change_thrust(self, at: AirPoint) -> None:
-        """Continue with or without thrust.
-
-        The airspeed is the mean of the estimate, which believed in the other verdict until now,
-        and of the one that the last fix has shown, which gusts and an error of the wind move.
-        """
-        newest = self._path.newest
-        assert self._horizontal is not None and newest is not None
-        believed_m_s = math.hypot(at.north_m_s, at.east_m_s) * abs(self._horizontal.factor)
-        airspeed_m_s = 0.5 * (believed_m_s + self._model.measured_m_s)
-        airspeed_m_s += newest.coast_m_s - at.coast_m_s
-        if not self.motor.is_stopped:
-            airspeed_m_s += newest.thrust_m_s - at.thrust_m_s
+    def _change_thrust(self, gained_m_s: float) -> None:
+        """Continue with or without thrust: the airspeed differs by what it has given since."""
+        factor = 1.0
+        if self._horizontal is not None:
+            # The path is that of the estimate until now: a factor of length 1.
+            factor = abs(self._horizontal.factor)
+            self._multiply(complex(factor))
+            self._horizontal.widen(MOTOR_SD**2, 0.0)
+        airspeed_m_s = self._model.airspeed_m_s * factor + gained_m_s
         self._model.restart(airspeed_m_s, motor_stopped=self.motor.is_stopped)
-        # The path is that of the estimate until now: a factor of length 1.
-        self._multiply(complex(abs(self._horizontal.factor)))
-        self._horizontal.widen(MOTOR_SD**2, 0.0)

@@ -2,121 +2,60 @@
 
 from __future__ import annotations
 
-import math
-from collections import deque
-from typing import NamedTuple
-
 from raspilot.navigation.air_path import AirPoint
 
-VELOCITY_SD_M_S = 0.3
-LATEST_FIXES, REFERENCE_FIXES = 5, 3
-"""A stop is looked for between the latest fixes; the ones before it are what it is compared to."""
-STOPPED_SIGMA, WORKING_SIGMA = 1.4, 1.0
-"""How certain it is that more, or less, than half of the thrust is missing."""
-MAX_GAP_S = 3.0
-GUSTS, LEAST_GUSTS, MOST_GUSTS = 0.1, 0.02, 0.5
-"""Variance (m2/s2) that gusts add to the ground velocity along the nose each second."""
-GUSTS_TAU_S = 30.0
-MAX_FACTOR = 1.4
-"""A glide that is faster than its model by this factor is none."""
-
-
-class _Seen(NamedTuple):
-    """A fix: its time, the ground velocity and the nose (north + i east), the integrals."""
-
-    time_s: float
-    ground: complex
-    nose: complex
-    thrust_m_s: float
-    coast_m_s: float
+SIGMA_M_S2 = 0.7
+"""Of one acceleration; gusts and errors of the attitude last for several of them."""
+MAX_EVIDENCE, CERTAIN = 1.5, 4.0
+"""Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
+MAX_OFFSET_M_S2, OFFSET_S = 0.5, 20.0
+MAX_PAUSE_S, SETTLING_S = 1.0, 10.0
+"""After a pause the IMU may have been lost: the attitude found anew may be wrong for this time."""
 
 
 class MotorWatch:
-    """Compares the ground velocity along the nose with the thrust that the throttle demands.
+    """Compares the acceleration along the nose with drag, climb and the thrust demanded.
 
-    A downdraught takes height but no speed; a stopped motor takes speed first. For each of the
-    latest fixes, as the first one after a stop, the share of the thrust that is missing since then
-    is estimated. Its uncertainty comes from the receiver, from the wind where the nose has turned,
-    and from gusts, whose strength is learned: in turbulence a verdict takes more thrust or time.
+    A sequential test (Page's cumulative sum): each acceleration adds how much more probable the
+    other verdict makes it. Little thrust is little evidence: a motor that stops while it idles is
+    noticed when the throttle opens. A constant error, of the attitude or of the drag, is learned.
     """
 
     def __init__(self) -> None:
         self.is_stopped = False
-        self._gusts = GUSTS
-        self._seen: deque[_Seen] = deque(maxlen=LATEST_FIXES + REFERENCE_FIXES)
+        self._offset_m_s2 = 0.0
+        self._evidence = 0.0
+        self._began: AirPoint | None = None
+        self._time_s: float | None = None
+        self._settled_s = float("-inf")
 
-    def fix(
-        self,
-        at: AirPoint,
-        ground: complex,
-        nose: complex,
-        wind: complex,
-        wind_variance: float,
-        factor: float,
-    ) -> bool:
-        """Take a fix's ground velocity; return whether the verdict changed.
+    def acceleration(self, forward_m_s2: float, begin: AirPoint, end: AirPoint) -> float | None:
+        """Take an acceleration that was felt between two points of the air path.
 
-        ``factor`` is the measured airspeed over that of the model.
+        Return None, or the airspeed (m/s) that a changed verdict gives or takes.
         """
-        seen = self._seen
-        if seen and at.time_s - seen[-1].time_s > MAX_GAP_S:
-            seen.clear()
-        seen.append(_Seen(at.time_s, ground, nose, at.thrust_m_s, at.coast_m_s))
-        # What thrust, drag and climb do not explain: constant, and falling after a stop.
-        rest = [
-            ((each.ground - wind) * each.nose.conjugate()).real - each.thrust_m_s - each.coast_m_s
-            for each in seen
-        ]
-        self._learn_gusts(rest)
-        if not self._is_contradicted(rest, wind_variance, factor):
-            return False
+        dt_s = end.time_s - begin.time_s
+        thrust = (end.thrust_m_s - begin.thrust_m_s) / dt_s
+        rest = forward_m_s2 - (end.coast_m_s - begin.coast_m_s) / dt_s - thrust
+        passed_s = 0.0 if self._time_s is None else end.time_s - self._time_s
+        self._time_s = end.time_s
+        if passed_s > MAX_PAUSE_S:
+            self._settled_s = end.time_s + SETTLING_S
+        if end.time_s < self._settled_s:
+            self._evidence = 0.0
+            return None
+        if self._evidence == 0.0:
+            self._began = begin
+        if self._evidence == 0.0 and not self.is_stopped:
+            offset = self._offset_m_s2 + (rest - self._offset_m_s2) * passed_s / OFFSET_S
+            self._offset_m_s2 = max(-MAX_OFFSET_M_S2, min(MAX_OFFSET_M_S2, offset))
+        missing = -thrust * (2.0 * (rest - self._offset_m_s2) + thrust) / (2.0 * SIGMA_M_S2**2)
+        evidence = -missing if self.is_stopped else missing
+        self._evidence += max(-MAX_EVIDENCE, min(MAX_EVIDENCE, evidence))
+        self._evidence = max(0.0, self._evidence)
+        if self._evidence < CERTAIN or self._began is None:
+            return None
         self.is_stopped = not self.is_stopped
-        while len(seen) > 1:
-            seen.popleft()
-        return True
-
-    def _learn_gusts(self, rest: list[float]) -> None:
-        """Learn from the oldest fixes, before a stop that may have happened since."""
-        seen = self._seen
-        if self.is_stopped or len(rest) < LATEST_FIXES + REFERENCE_FIXES:
-            return
-        last = REFERENCE_FIXES
-        found = (rest[last] - rest[0]) ** 2 - 2.0 * VELOCITY_SD_M_S**2
-        found = max(0.0, found) / (seen[last].time_s - seen[0].time_s)
-        gusts = self._gusts + (found - self._gusts) / GUSTS_TAU_S
-        self._gusts = max(LEAST_GUSTS, min(MOST_GUSTS, gusts))
-
-    def _is_contradicted(self, rest: list[float], wind_variance: float, factor: float) -> bool:
-        if self.is_stopped and factor > MAX_FACTOR:
-            return True
-        for first in range(max(1, len(rest) - LATEST_FIXES), len(rest)):
-            share, sd = self._missing(first, rest, wind_variance)
-            # A gust takes more than the thrust; a stop does not.
-            share = max(0.0, min(1.0, share))
-            if self.is_stopped:
-                if 0.5 - share > WORKING_SIGMA * sd:
-                    return True
-            elif share - 0.5 > STOPPED_SIGMA * sd:
-                return True
-        return False
-
-    def _missing(self, first: int, rest: list[float], wind_variance: float) -> tuple[float, float]:
-        """Return the share of the thrust that is missing since before ``first``, and its sd."""
-        seen = self._seen
-        before, last = seen[first - 1], seen[-1]
-        begin = max(0, first - REFERENCE_FIXES)
-        reference = sum(rest[begin:first]) / (first - begin)
-        # The motor stopped at any time within the first interval.
-        stop_m_s = 0.5 * (before.thrust_m_s + seen[first].thrust_m_s)
-        thrust = [seen[index].thrust_m_s - stop_m_s for index in range(first, len(seen))]
-        squares = sum(each * each for each in thrust)
-        if squares < 1e-6:
-            return 0.5, math.inf
-        missing = sum(
-            each * (reference - found) for each, found in zip(thrust, rest[first:], strict=True)
-        )
-        noise = VELOCITY_SD_M_S**2
-        common = noise / (first - begin) + self._gusts * (last.time_s - before.time_s)
-        common += wind_variance * abs(last.nose - before.nose) ** 2
-        total = sum(thrust)
-        return missing / squares, math.sqrt(noise / squares + common * (total / squares) ** 2)
+        self._evidence = 0.0
+        changed_m_s = end.thrust_m_s - self._began.thrust_m_s
+        return -changed_m_s if self.is_stopped else changed_m_s

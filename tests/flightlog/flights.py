@@ -74,6 +74,7 @@ def status(**fields) -> ArduinoStatusCommand:
         "rx_age_ms": 10,
         "imu_age_ms": 2,
         "battery_mv": 0,
+        "acceleration": 0,
     }
     return ArduinoStatusCommand(**{**plain, **fields})
 

@@ -10,7 +10,7 @@ from tests.support.system import build_up
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
-from up.commands.orientation_command import OrientationCommand
+from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.commands.servo_command import ServoCommand
@@ -60,6 +60,12 @@ class Rig:
             self.publish(OrientationCommand(self.roll_deg, 0.9, yaw_deg), BOARD)
             if round(now_s * 50) % 50 == 0:
                 self.location(now_s - DELAY_S, **changes)
+
+    def feel(self, forward_m_s2):
+        """Fly 3 s with an acceleration."""
+        for _ in range(15):
+            self.publish(AccelerationCommand(forward_m_s2), BOARD)
+            self.fly(0.2)
 
 
 @pytest.fixture
@@ -137,11 +143,11 @@ def test_only_the_followed_source_and_valid_values_are_used(rig):
     assert rig.module.state == before
 
 
-def test_a_throttle_that_holds_no_speed_is_a_stopped_motor(rig):
+def test_a_throttle_that_gives_no_thrust_is_a_stopped_motor(rig):
     rig.fly(40)
+    rig.feel(0.0)
     assert rig.module.telemetry_content["navigation"]["motor_stopped"] is False
-    for passed_s in range(1, 5):
-        rig.fly(1, speed_m_s=SPEED_M_S - 0.9 * passed_s)
+    rig.feel(-0.9)
     assert rig.module.state.motor_stopped
     assert rig.module.telemetry_content["navigation"]["motor_stopped"] is True
 
@@ -150,6 +156,5 @@ def test_an_airframe_without_motor_has_none_that_stops(tmp_path):
     (tmp_path / "navigation.yml").write_text("performance:\n  motor: false\n")
     rig = Rig(tmp_path)
     rig.fly(40)
-    for passed_s in range(1, 5):
-        rig.fly(1, speed_m_s=SPEED_M_S - 0.9 * passed_s)
+    rig.feel(-0.9)
     assert rig.module.telemetry_content["navigation"]["motor_stopped"] is False

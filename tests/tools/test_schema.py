@@ -154,7 +154,7 @@ def test_it_is_in_the_firmware(tree):
     need_tool("g++")
     source = tree / "arduino/raspilot/src/protocol/status.cpp"
     text = source.read_text()
-    text = text.replace("}  // namespace raspilot\n", 'static_assert(STATUS_SIZE == 23, "");\n}\n')
+    text = text.replace("}  // namespace raspilot\n", 'static_assert(STATUS_SIZE == 24, "");\n}\n')
     before = "  Link::Frame::u16(autopilot.meter.period_us());"
     field = '  static_assert(AT_BROWN_OUTS + 1 == STATUS_SIZE, "");\n  Link::Frame::u8(0);\n'
     source.write_text(text.replace(before, field + before))
@@ -185,12 +185,12 @@ def test_they_are_in_the_app_and_in_the_documents(tree):
     page = (tree / "docs" / "protocols.md").read_text()
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines()]
     heads = [row[:3] for row in rows]
-    assert ["22", "u8", "`brown_outs`"] in heads
+    assert ["23", "u8", "`brown_outs`"] in heads
     assert ["`load.temperature`", "degC", ""] in heads
     codes = {row[3]: row[0] for row in rows if len(row) == 6}
     assert codes["`brown_outs`"] == "`arduino.brown_outs` above 2"
     assert codes["`too_hot`"] == "`load.temperature` above 80"
-    assert ["`x`", "78", "23"] in heads
+    assert ["`x`", "78", "24"] in heads
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from up.commands.command import value
 from up.commands.schema_rows import Datum
 
 VERSION = 1
-STATUS = Struct('>BBBBBBHHHHHHHH')
+STATUS = Struct('>BBBBBBHHHHHHHHB')
 OLDEST_SIZE = 20
 FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'R': 'RETURN', 'u': 'OUTPUT', 'h': 'RTH'}
 MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'RETURN': 'the Raspberry Pi sets the attitude in receiver failsafe', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
@@ -106,6 +106,7 @@ DATA = (
     Datum('rx_age_ms', 'rx_age_ms', None, 'number', 'ms', "age of the receiver's newest pulses, stays at 65535 (age_ms.rx is that of the message)", False, 'receiver_age_ms'),
     Datum('imu_age_ms', 'imu_age_ms', None, 'number', 'ms', "age of the IMU's newest sample, stays at 65535", False, 'imu_age_ms'),
     Datum('battery_mv', 'battery_mv', None, 'number', 'mV', "voltage of the flight battery at A7; 0: no divider, not calibrated, or beyond the pin's 1.1 V", False, 'battery_mv'),
+    Datum('acceleration', 'acceleration', None, 'number', '', 'change of the airspeed as the accelerometer feels it: 128 and the acceleration forward in 1/64 g, mean of 128 ms in each 286 ms; 0: unknown', False, ''),
 )
 
 
@@ -127,6 +128,7 @@ class BoardStatus:
     rx_age_ms: int = value(minimum=0, maximum=65535, unit='ms')
     imu_age_ms: int = value(minimum=0, maximum=65535, unit='ms')
     battery_mv: int = value(minimum=0, maximum=65535, unit='mV')
+    acceleration: int = value(minimum=0, maximum=255, unit='')
 
     @property
     def mode_letter(self) -> str:

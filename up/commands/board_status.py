@@ -15,11 +15,13 @@ from up.commands.board_schema import (
     RESET_CAUSES,
     SWITCH_POSITIONS,
     VETOES,
+    BoardStatus,
     Reason,
 )
 from up.commands.schema_rows import Datum
 
 TOPIC = "arduino.status"
+GRAVITY_M_S2 = 9.81
 
 
 def has_bit(status: Mapping[str, Any], key: str, bit: int) -> bool | None:
@@ -45,6 +47,13 @@ def reset_causes_of(status: Mapping[str, Any]) -> str:
     """Return the cause of the board's last start, in words."""
     named = [name for bit, name in RESET_CAUSES.items() if has_bit(status, "reset_cause", bit)]
     return ", ".join(named) or "unknown"
+
+
+def forward_m_s2_of(status: BoardStatus) -> float | None:
+    """Return the acceleration along the nose, without gravity; None: unknown."""
+    if not (status.acceleration and status.is_imu_valid):
+        return None
+    return (status.acceleration - 128) / 64 * GRAVITY_M_S2
 
 
 def flight_mode_name(letter: int) -> str | None:

@@ -21,7 +21,7 @@ from up.commands.mission_commands import (
     MissionRequestCommand,
 )
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
-from up.commands.orientation_command import OrientationCommand
+from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.panic_command import PanicCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
@@ -55,6 +55,7 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     MissionRequestCommand,
     NackCommand,
     NavigationTargetCommand,
+    AccelerationCommand,
     OrientationCommand,
     OutputCommand,
     PIDTuningsCommand,

@@ -1,4 +1,4 @@
-"""The attitude of the aircraft."""
+"""The attitude of the aircraft, and its acceleration."""
 
 from __future__ import annotations
 
@@ -31,3 +31,12 @@ class OrientationCommand(BaseCommand):
         None, key="yaw_rate", minimum=-4000, maximum=4000, unit="deg/s"
     )
     sequence: int | None = value(None, minimum=0, maximum=65535)
+
+
+@dataclass(frozen=True, slots=True)
+class AccelerationCommand(BaseCommand):
+    """How fast the speed along the nose changes: what is felt without gravity, level."""
+
+    NAME: ClassVar[str] = "up.acceleration.update"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    forward_m_s2: float = value(key="forward", minimum=-100, maximum=100, unit="m/s2")

@@ -39,7 +39,7 @@ inline int size_from_arduino(uint8_t type) {
     case '!': return 3;
     case 'r': return 8;
     case 'i': return 13;
-    case 'x': return 22;
+    case 'x': return 23;
     case 'O': return 26;
     case 'C': return 54;
     case 'G': return 72;

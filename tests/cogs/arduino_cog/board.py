@@ -133,9 +133,9 @@ class BoardRig(Rig):
         self.say(
             "x",
             struct.pack(
-                ">BcBBBBHHHHHHHH",
+                ">BcBBBBHHHHHHHHB",
                 version, self.mode, self.switch, self.flags, self.vetoes, cause,
-                2000, 48, 3, 1, self.uptime_s, 12, 4, self.battery_mv,
+                2000, 48, 3, 1, self.uptime_s, 12, 4, self.battery_mv, 0,
             ),
         )  # fmt: skip
 

@@ -135,7 +135,7 @@ def test_the_status_says_what_its_bits_mean():
 def test_an_older_status_lacks_fields_and_a_newer_one_has_more():
     payload = bytes.fromhex(next(each for each in FROM_ARDUINO if each["type"] == "x")["payload"])
     status = read_status(payload)
-    assert read_status(payload[:20]) == dataclasses.replace(status, battery_mv=0)
+    assert read_status(payload[:20]) == dataclasses.replace(status, battery_mv=0, acceleration=0)
     assert read_status(payload + b"\1\2\3") == status
 
 

@@ -222,23 +222,3 @@ def test_time_that_runs_backwards_or_leaps_is_survived(steps):
         circling.estimator.orientation(time_s, angle_deg, angle_deg / 4, angle_deg)
         circling.estimator.fix(circling.fix(time_s), time_s)
         assert all_finite(circling.estimator.state())
-
-
-@pytest.mark.parametrize(("turned_deg", "stopped"), [(0.0, False), (90.0, True)])
-def test_a_loss_of_speed_is_no_stop_of_the_motor_before_the_first_turn(turned_deg, stopped):
-    """Thrown against an unknown wind, another thrust is expected than the ground speed has."""
-    estimator, north_m, east_m, verdicts = Estimator(), 0.0, 0.0, []
-    for step in range(1500):
-        time_s = step * 0.02
-        yaw_deg = min(turned_deg, max(0.0, (time_s - 5.0) * 20.0))
-        speed_m_s = 11.0 if time_s < 18.0 else max(5.0, 11.0 - 1.5 * (time_s - 18.0))
-        course = math.radians(yaw_deg)
-        north_m += 0.02 * speed_m_s * math.cos(course)
-        east_m += 0.02 * speed_m_s * math.sin(course)
-        estimator.throttle(0.7)
-        estimator.orientation(time_s, 0.0, 5.0, yaw_deg)
-        if step % 50 == 0:
-            place = LocalFrame(50.0, 14.0).degrees(Point(north_m, east_m))
-            estimator.fix(Fix(time_s, *place, 300.0, 4.0, speed_m_s, yaw_deg), time_s)
-            verdicts.append(estimator.motor.is_stopped)
-    assert any(verdicts) is stopped

@@ -11,6 +11,7 @@ from raspilot.navigation.path_controller import PathController
 from raspilot.navigation.planning import circle_abeam
 from tests.raspilot.navigation.recordings import PHONE_PERIOD_S, booted, fix_of, rms
 from tests.simulator.flying import BEAT_S
+from up.commands.board_status import forward_m_s2_of
 from up.flight_modes.demand import PathDemand
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState
@@ -35,7 +36,7 @@ def loiter(seed, wind_m_s, turbulence, duration_s, stops_s=math.inf):
     board, dynamics = flown.board, flown.dynamics
     estimator, controller = Estimator(), PathController(CONFIG)
     pilot, phone = CirclingPilot(switch="FBW"), PhoneSensors(seed)
-    demand, steps = None, []
+    demand, status, steps = None, None, []
     for beat in range(round(duration_s / BEAT_S)):
         time_s = beat * BEAT_S
         state = estimator.state()
@@ -61,6 +62,9 @@ def loiter(seed, wind_m_s, turbulence, duration_s, stops_s=math.inf):
             continue
         estimator.throttle((board.pulses_us()[2] - 1000) / 1000)
         estimator.orientation(now_s, told.roll_deg, told.pitch_deg, told.yaw_deg)
+        if flown.tap.status is not status:
+            status = flown.tap.status
+            estimator.acceleration(now_s, forward_m_s2_of(status))
         if beat % round(PHONE_PERIOD_S / BEAT_S) == 0:
             data = phone.location(dynamics.state)
             if data:
@@ -73,7 +77,7 @@ def loiter(seed, wind_m_s, turbulence, duration_s, stops_s=math.inf):
 
 
 @pytest.mark.parametrize(
-    ("seed", "wind_m_s", "turbulence", "allowed_s"), [(75, 0, "none", 4.0), (7, 6, "moderate", 6.0)]
+    ("seed", "wind_m_s", "turbulence", "allowed_s"), [(75, 0, "none", 3.0), (7, 6, "moderate", 3.0)]
 )
 def test_a_stop_is_seen_and_the_airspeed_stays(seed, wind_m_s, turbulence, allowed_s):
     steps = loiter(seed, wind_m_s, turbulence, 115, 95.0)
@@ -87,10 +91,6 @@ def test_a_stop_is_seen_and_the_airspeed_stays(seed, wind_m_s, turbulence, allow
     assert rms(each.state.airspeed_m_s - each.truth.airspeed_m_s for each in gliding) < 1.5
 
 
-def test_turbulence_alone_is_at_most_a_short_and_harmless_alarm():
-    steps = [each for each in loiter(7, 6, "moderate", 115, 95.0) if 40.0 < each.time_s < 95.0]
-    alarmed = [each for each in steps if each.state.motor_stopped]
-    assert len(alarmed) * BEAT_S < 8.0
-    assert not steps[-1].state.motor_stopped
-    heights = [each.truth.altitude_m for each in steps]
-    assert max(heights) - min(heights) < 15.0
+def test_turbulence_alone_is_no_stop():
+    steps = [each for each in loiter(7, 6, "moderate", 115, 95.0) if each.time_s < 95.0]
+    assert not any(each.state.motor_stopped for each in steps)

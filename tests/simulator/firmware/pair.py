@@ -62,7 +62,8 @@ class Aboard:
 
     def stands(self):
         """Return the status without the values that may differ between two clocks."""
-        return dataclasses.replace(self.status(), loop_us=0, late_us=0, rx_age_ms=0, imu_age_ms=0)
+        apart = dict.fromkeys(("loop_us", "late_us", "rx_age_ms", "imu_age_ms", "acceleration"), 0)
+        return dataclasses.replace(self.status(), **apart)
 
     def attitude(self):
         orientation = self.tap.orientation

@@ -266,6 +266,14 @@ def test_eeprom_images_interchange_both_ways(library, elf):
     assert both.agree("stands").vetoes & 64
 
 
+def test_status_has_the_acceleration_forward_that_does_not_turn_the_gyro(pair):
+    pair.each("run_ms", 1500)
+    assert [each.acceleration for each in pair.each("status")] == pytest.approx([128, 128], abs=1)
+    pair.board("set_motion", motion_at(0, math.degrees(math.asin(0.25))))
+    pair.each("run_ms", 500)
+    assert [each.acceleration for each in pair.each("status")] == pytest.approx([144, 144], abs=2)
+
+
 def armed_in_a_bank(pair):
     """Arm both in FBW and bank them 25 degrees, with a gyro that has a bias."""
     pair.each("sticks", aux1=MIDDLE)

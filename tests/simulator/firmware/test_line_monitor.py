@@ -34,7 +34,7 @@ def test_it_reads_the_vectors(vector):
 
 def test_status_has_the_fields_of_the_page():
     payload = struct.pack(
-        ">BcBBBBHHHHHHHH", 1, b"f", 2, 0b10001011, 5, 0x88, 2000, 54, 1, 2, 3, 4, 5, 6
+        ">BcBBBBHHHHHHHHB", 1, b"f", 2, 0b10001011, 5, 0x88, 2000, 54, 1, 2, 3, 4, 5, 6, 7
     )
     tap = LineMonitor()
     tap.feed(wire_of([("x", payload)]), 7.5)
@@ -48,7 +48,7 @@ def test_status_has_the_fields_of_the_page():
     assert (status.loop_us, status.late_us) == (2000, 54)
     assert (status.frame_errors, status.frames_lost) == (1, 2)
     assert (status.uptime_s, status.rx_age_ms, status.imu_age_ms) == (3, 4, 5)
-    assert status.battery_mv == 6
+    assert (status.battery_mv, status.acceleration) == (6, 7)
 
 
 def test_orientation_and_inputs_are_kept_by_name():

@@ -51,7 +51,7 @@ WHO = {
         "up.location.change", "up.location.update", "up.orientation.update",
     ),
     "board": (
-        "arduino.status", "up.ack", "up.flight.state", "up.orientation.update", "up.rx.update",
+        "arduino.status", "up.acceleration.update", "up.ack", "up.flight.state", "up.orientation.update", "up.rx.update",
         "up.nack", "up.servo.update",
     ),
 }  # fmt: skip
@@ -69,6 +69,7 @@ SAMPLES = {
     "up.location.update": {"latitude": 1, "longitude": 2},
     "up.altitude.change": {"altitude": 1},
     "up.heading.change": {"heading": 1, "mode": "actual"},
+    "up.acceleration.update": {"forward": 1},
     "up.orientation.update": {"roll": 1, "pitch": 2, "yaw": 3},
     "up.rx.update": {**STICKS, "aux1": 1500, "aux2": 1500, "valid": 63},
     "up.servo.update": STICKS,

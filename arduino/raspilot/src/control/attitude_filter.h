@@ -104,6 +104,9 @@ class AttitudeFilter : private AttitudeMemory {
   /** `A`: the airspeed that the Raspberry Pi has measured, cm/s. */
   void take_airspeed(int16_t cm_s) { tilt_.take_airspeed(cm_s); }
 
+  /** Of the status: 128 and the acceleration forward, 1/64 g. */
+  uint8_t acceleration() const { return tilt_.acceleration(); }
+
   AttitudeState state() const;
   void restore(const AttitudeState& state);
 

@@ -38,6 +38,8 @@ class TiltFilter {
   void widen(uint8_t tilt_deg);
   /** An airspeed that was measured, cm/s: the next cycle takes it in place of the mean. */
   void take_airspeed(int16_t cm_s) { measured_cm_s_ = cm_s; }
+  /** 128 and the acceleration along the nose in the last cycle, 1/64 g. */
+  uint8_t acceleration() const { return static_cast<uint8_t>(128 + (pitch_error_ >> 7)); }
   /** Mean airspeed. */
   float speed_m_s() const { return mean_speed_; }
 

@@ -7,7 +7,7 @@
 namespace raspilot {
 
 constexpr uint8_t PROTOCOL_VERSION = 1;
-constexpr uint8_t STATUS_SIZE = 22;
+constexpr uint8_t STATUS_SIZE = 23;
 
 /** Flight modes by their letter on the wire. */
 enum class Mode : char {
@@ -85,7 +85,8 @@ enum StatusOffset : uint8_t {
   AT_UPTIME_S = 14,
   AT_RX_AGE_MS = 16,
   AT_IMU_AGE_MS = 18,
-  AT_BATTERY_MV = 20
+  AT_BATTERY_MV = 20,
+  AT_ACCELERATION = 22
 };
 
 }  // namespace raspilot

@@ -39,6 +39,7 @@ void write_status(const Autopilot& autopilot, uint32_t now_us) {
   Link::Frame::u16(autopilot.receiver.age_ms(now_us));
   Link::Frame::u16(autopilot.attitude.age_ms());
   Link::Frame::u16(autopilot.battery.mv(autopilot.settings.battery_full_scale_mv));
+  Link::Frame::u8(autopilot.attitude.acceleration());
 }
 
 }  // namespace raspilot

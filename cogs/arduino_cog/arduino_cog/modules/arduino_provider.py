@@ -17,13 +17,14 @@ from up.base_started_module import BaseStartedModule
 from up.commands.board_schema import OLDEST_SIZE, STATUS, VERSION, Reason
 from up.commands.board_status import (
     flight_mode_name,
+    forward_m_s2_of,
     refusal_name,
     refusal_text,
     telemetry_of,
 )
 from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightStateCommand
-from up.commands.orientation_command import OrientationCommand
+from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.origin import Origin
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
@@ -309,6 +310,9 @@ class ArduinoProvider(BaseStartedModule):
             )
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
+        forward_m_s2 = forward_m_s2_of(status)
+        if forward_m_s2 is not None:
+            self._execute(AccelerationCommand(forward_m_s2), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
