@@ -14,6 +14,8 @@ LATEST_FIXES, REFERENCE_FIXES = 5, 3
 STOPPED_SIGMA, WORKING_SIGMA = 1.4, 1.0
 """How certain it is that more, or less, than half of the thrust is missing."""
 MAX_GAP_S = 3.0
+SETTLING_S = 10.0
+"""After a time without orientation: an attitude found anew may be wrong, as a climb it is power."""
 GUSTS, LEAST_GUSTS, MOST_GUSTS = 0.1, 0.02, 0.5
 """Variance (m2/s2) that gusts add to the ground velocity along the nose each second."""
 GUSTS_TAU_S = 30.0
@@ -43,6 +45,8 @@ class MotorWatch:
     def __init__(self) -> None:
         self.is_stopped = False
         self._gusts = GUSTS
+        self._unseen_s = 0.0
+        self._settled_s = -math.inf
         self._seen: deque[_Seen] = deque(maxlen=LATEST_FIXES + REFERENCE_FIXES)
 
     def fix(
@@ -59,6 +63,12 @@ class MotorWatch:
         ``factor`` is the measured airspeed over that of the model.
         """
         seen = self._seen
+        if at.unseen_s > self._unseen_s:
+            self._unseen_s = at.unseen_s
+            self._settled_s = at.time_s + SETTLING_S
+        if at.time_s < self._settled_s:
+            seen.clear()
+            return False
         if seen and at.time_s - seen[-1].time_s > MAX_GAP_S:
             seen.clear()
         seen.append(_Seen(at.time_s, ground, nose, at.thrust_m_s, at.coast_m_s))
