@@ -128,7 +128,7 @@ OUT_OF_LINE void AttitudeFilter::on_missing() {
 
 /** How the aircraft turned since is unknown: gravity is to be found again. */
 void AttitudeFilter::lose() {
-  has_lost_gravity_ = has_lost_gravity_ || has_gravity_;
+  if (has_gravity_) has_lost_gravity_ = true;
   has_gravity_ = false;
   found_groups_ = 0;
   pending_slots_ = 0;

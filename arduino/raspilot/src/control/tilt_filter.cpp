@@ -40,14 +40,13 @@ constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 190;
 constexpr float FORCE_SIGMA = 0.1435F;  // g, across the nose
 constexpr float EXCESS_WEIGHT = 6.4F;   // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 17.5F;    // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 16.7F;
 constexpr float MEASURED_SIGMA = 5;     // m/s: its error lasts for many cycles
 constexpr int16_t MAX_OFF_CM_S = 800;   // a measurement that differs by more is wrong
 constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 570;
 constexpr float LOAD_FACTOR_SIGMA = 0.093F;     // g, along down
-constexpr float MEASURED_LOAD_FACTOR_SIGMA = 0.3F;
-constexpr float LOST_FORCE_SIGMA = 0.25F;  // g, along the nose: a change of airspeed
+constexpr float WEAK_LOAD_FACTOR_SIGMA = 0.3F;
+constexpr float LOST_FORCE_SIGMA = 0.6F;  // g, along the nose: a change of airspeed
 constexpr float STRAIGHT_SIGMA = 2.8F * RAD;   // rad/s: in straight flight a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5.2F * RAD;  // a faster one is a turn
 
@@ -58,7 +57,6 @@ constexpr float ONE_Q17 = 131072;
 constexpr float BIAS_TO_Q28 = 536870.9F;
 /** m/s and sixteenths of a deg/s in g Q13, times 512. */
 constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
-constexpr int16_t TWO_G_Q13 = 16383;
 /** A force beyond 1 g by more than this does not mean a change of airspeed: a launch, a loop. */
 constexpr int16_t MAX_EXCESS_Q13 = 1434;
 /** More load than this is a pull-up: it does not end within a cycle or two. */
@@ -70,7 +68,7 @@ constexpr int16_t MAX_LOAD_FACTOR_ERROR_Q13 = 2048;
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr uint8_t LOST_CYCLES = 10;
 constexpr uint8_t FOUND_CYCLES = LOST_CYCLES + 30;
-constexpr float LOST_WALK = 10 * RAD / 30;
+constexpr float LOST_WALK = 2.5F * RAD;
 
 OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
 
@@ -89,7 +87,7 @@ OUT_OF_LINE int16_t to_fixed(float value, float scale) {
 
 /** Adds a force that is a rate times SPEED_TO_FORCE. */
 OUT_OF_LINE void add_force(int16_t& sum_q13, int32_t force) {
-  sum_q13 = clamped16(sum_of(sum_q13, to_int16(shifted(force, 9))), TWO_G_Q13);
+  sum_q13 = sum_of(sum_q13, to_int16(shifted(force, 9)));
 }
 
 }  // namespace
@@ -130,10 +128,7 @@ OUT_OF_LINE void TiltFilter::widen(uint8_t tilt_deg) {
   add_noise(from_fixed(tilt_deg, RAD), 0, 0);
 }
 
-void TiltFilter::lose() {
-  restart();
-  lost_cycles_ = LOST_CYCLES;
-}
+void TiltFilter::lose() { lost_cycles_ = LOST_CYCLES; }
 
 void TiltFilter::collect(const int16_t* difference_q13, int16_t pitch_rate_16,
                          int16_t yaw_rate_16) {
@@ -194,12 +189,10 @@ OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
   noise_ = square(FORCE_SIGMA) + square(from_fixed(excess, EXCESS_WEIGHT * FORCE_UNIT));
   const bool is_far_off = clamped16(x, FAR_OFF_Q13) != x || clamped16(y, FAR_OFF_Q13) != y;
   is_one_g_ = clamped16(excess, MAX_EXCESS_Q13) == excess;
-  if (is_lost()) {
-    if (++lost_cycles_ == FOUND_CYCLES) lost_cycles_ = 0;
-  } else if (is_one_g_) {
-    // Otherwise a gust or a launch: neither lost nor found.
-    lost_cycles_ = is_far_off ? static_cast<uint8_t>(lost_cycles_ + 1) : 0;
-  }
+  // Without 1 g a gust or a launch: neither lost nor found.
+  if (!is_one_g_ && !is_lost()) return;
+  ++lost_cycles_;
+  if (lost_cycles_ <= LOST_CYCLES ? !is_far_off : lost_cycles_ == FOUND_CYCLES) lost_cycles_ = 0;
 }
 
 /** Tilt errors turn with the heading and grow with the bias; speed follows the force. */
@@ -237,52 +230,58 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
       break;
     default:
-      add_noise(is_lost() ? from_fixed(FOUND_CYCLES - lost_cycles_, LOST_WALK) : TILT_WALK,
+      add_noise(is_lost() ? LOST_WALK : TILT_WALK,
                 cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
       return;
   }
   add(to, from, factor);
 }
 
+/** A tilt that a force shows, Q13. */
+OUT_OF_LINE void TiltFilter::observe(State tilt, int16_t error) {
+  weights_[tilt] = 1;
+  innovation_ = from_fixed(error, FORCE_UNIT);
+}
+
 /** Speed as measured or its mean, roll by the force across the nose, no turn in straight flight. */
 OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& attitude) {
   float per_bias = 1 / static_cast<float>(ONE_Q14);
   if (subject == 0) {
-    uint8_t state = SPEED;
-    float sigma = cycles_ < EARLY_CYCLES ? EARLY_SPEED_SIGMA : SPEED_SIGMA;
-    innovation_ = mean_speed_ - speed_;
     const int16_t off_cm_s = sum_of(measured_cm_s_, to_fixed(speed_, -100));
     is_measured_ = measured_cm_s_ != 0 && clamped16(off_cm_s, MAX_OFF_CM_S) == off_cm_s;
     measured_cm_s_ = 0;
-    if (is_measured_) {
-      innovation_ = from_fixed(off_cm_s, 0.01F);
-      sigma = MEASURED_SIGMA;
-    } else if (is_lost()) {
-      state = PITCH;
-      innovation_ = from_fixed(pitch_error_, FORCE_UNIT);
-      sigma = LOST_FORCE_SIGMA;
-      is_measured_ = true;
+    float sigma = LOST_FORCE_SIGMA;
+    if (is_lost() && !is_measured_) {
+      observe(PITCH, pitch_error_);
+    } else {
+      weights_[SPEED] = 1;
+      innovation_ = mean_speed_ - speed_;
+      sigma = SPEED_SIGMA;
+      if (is_measured_) {
+        innovation_ = from_fixed(off_cm_s, 0.01F);
+        sigma = MEASURED_SIGMA;
+      }
     }
-    weights_[state] = 1;
     variance_ = square(sigma);
     return;
   }
   if (subject == 1) {
     per_bias = speed_ * (1 / GRAVITY_M_S2 / ONE_Q14);
-    weights_[ROLL] = 1;
+    observe(ROLL, roll_error_);
     weights_[SPEED] = turn_rate_ * (-1 / GRAVITY_M_S2);
-    innovation_ = from_fixed(roll_error_, FORCE_UNIT);
     variance_ = noise_;
   } else {
     const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
     if (steep > 1) {
       // The wings carry 1 g on average: more of it shows a roll error as part of the turn's force.
-      if (clamped16(load_factor_error_, MAX_LOAD_FACTOR_ERROR_Q13) == load_factor_error_) {
-        weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
-      }
-      innovation_ = from_fixed(load_factor_error_, FORCE_UNIT);
       // A climb that begins carries more than 1 g, too: with a measured airspeed it counts less.
-      variance_ = square(is_measured_ ? MEASURED_LOAD_FACTOR_SIGMA : LOAD_FACTOR_SIGMA);
+      observe(ROLL, load_factor_error_);
+      weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
+      if (clamped16(load_factor_error_, MAX_LOAD_FACTOR_ERROR_Q13) != load_factor_error_) {
+        weights_[ROLL] = 0;
+      }
+      variance_ =
+          square(is_measured_ || is_lost() ? WEAK_LOAD_FACTOR_SIGMA : LOAD_FACTOR_SIGMA);
       return;
     }
     innovation_ = turn_rate_;

@@ -70,6 +70,7 @@ class TiltFilter {
   void find_errors(const Attitude& attitude);
   int16_t mean(Sum sum) const;
   void predict(uint8_t piece, const Attitude& attitude);
+  void observe(State tilt, int16_t error);
   void begin_observation(uint8_t subject, const Attitude& attitude);
   void update(uint8_t piece);
   bool finish(uint8_t piece, const Attitude& attitude, TiltCorrection& correction);
