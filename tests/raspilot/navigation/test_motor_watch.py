@@ -18,7 +18,7 @@ class Fixes:
         self.watch = MotorWatch()
         self.time_s = 0.0
         self.speed = 11.0
-        self.thrust = self.coast = self.turned_deg = 0.0
+        self.thrust = self.coast = self.turned_deg = self.unseen_s = 0.0
         self.wind = self.gust = 0j
         self.wind_variance = 0.04
         self.factor = 1.0
@@ -34,8 +34,9 @@ class Fixes:
             nose = cmath.rect(1.0, math.radians(self.turned_deg))
             ground = (self.speed + gusts[count % len(gusts)]) * nose + self.wind + self.gust
             at = AirPoint(
-                self.time_s, 0.0, 0.0, 0.0, self.thrust, self.coast, 11.0, 0.0, self.turned_deg
-            )
+                self.time_s, 0.0, 0.0, 0.0, self.thrust, self.coast, 11.0, 0.0, self.turned_deg,
+                self.unseen_s,
+            )  # fmt: skip
             if self.watch.fix(at, ground, nose, self.wind, self.wind_variance, self.factor):
                 return count
         return None
@@ -111,3 +112,9 @@ def test_a_glide_far_above_its_model_is_none(fixes):
 def test_what_happened_during_a_gap_is_not_judged(fixes):
     assert fixes.fly(1, lost=1.0, step_s=4.0) is None
     assert fixes.fly(10) is None
+
+
+def test_an_attitude_that_was_found_anew_is_not_judged_for_ten_seconds(fixes):
+    fixes.unseen_s = 3.0
+    assert fixes.fly(9, lost=1.0) is None
+    assert fixes.fly(6, lost=1.0) in (4, 5)

@@ -39,14 +39,14 @@ constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 190;
 // 1 sigma of the observation, for one cycle.
 constexpr float FORCE_SIGMA = 0.1435F;  // g, across the nose
 constexpr float EXCESS_WEIGHT = 6.4F;   // a force is trusted less when it is not 1 g
-constexpr float SPEED_SIGMA = 17.5F;    // m/s, about its mean
+constexpr float SPEED_SIGMA = 17.25F;   // m/s, about its mean
 constexpr float MEASURED_SIGMA = 5;     // m/s: its error lasts for many cycles
 constexpr int16_t MAX_OFF_CM_S = 800;   // a measurement that differs by more is wrong
 constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 570;
 constexpr float LOAD_FACTOR_SIGMA = 0.093F;     // g, along down
 constexpr float WEAK_LOAD_FACTOR_SIGMA = 0.3F;
-constexpr float LOST_FORCE_SIGMA = 0.6F;  // g, along the nose: a change of airspeed
+constexpr float LOST_FORCE_SIGMA = 0.375F;  // g, along the nose: a change of airspeed
 constexpr float STRAIGHT_SIGMA = 2.8F * RAD;   // rad/s: in straight flight a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5.2F * RAD;  // a faster one is a turn
 
@@ -57,6 +57,7 @@ constexpr float ONE_Q17 = 131072;
 constexpr float BIAS_TO_Q28 = 536870.9F;
 /** m/s and sixteenths of a deg/s in g Q13, times 512. */
 constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
+constexpr int16_t TWO_G_Q13 = 16383;
 /** A force beyond 1 g by more than this does not mean a change of airspeed: a launch, a loop. */
 constexpr int16_t MAX_EXCESS_Q13 = 1434;
 /** More load than this is a pull-up: it does not end within a cycle or two. */
@@ -87,7 +88,7 @@ OUT_OF_LINE int16_t to_fixed(float value, float scale) {
 
 /** Adds a force that is a rate times SPEED_TO_FORCE. */
 OUT_OF_LINE void add_force(int16_t& sum_q13, int32_t force) {
-  sum_q13 = sum_of(sum_q13, to_int16(shifted(force, 9)));
+  sum_q13 = clamped16(sum_of(sum_q13, to_int16(shifted(force, 9))), TWO_G_Q13);
 }
 
 }  // namespace
