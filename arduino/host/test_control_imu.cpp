@@ -259,3 +259,30 @@ TEST_CASE("`e` 0 twice says the same again, and not beyond 15 degrees") {
   CHECK(steep.filter.calibrate_level() == Reason::OUT_OF_RANGE);
   CHECK(steep.calibration.level_pitch_cdeg == 0);
 }
+
+TEST_CASE("after seconds without samples in a turn down is found without the force of the turn") {
+  for (double bank_deg : {20.0, -42.0, 55.0}) {
+    CAPTURE(bank_deg);
+    Flight flight;
+    flight.fly(2);
+    roll_to(flight, bank_deg);
+    turn(flight, bank_deg, 13, 2);
+    flight.miss(3);
+    turn(flight, bank_deg, 13, 0.3);
+    CHECK(flight.filter.is_valid());
+    CHECK(flight.tilt_error_deg() <= 4);
+    turn(flight, bank_deg, 13, 5);
+    CHECK(flight.tilt_error_deg() <= 4);
+  }
+}
+
+TEST_CASE("down that was found while the airspeed rose is right within three seconds") {
+  Flight flight;
+  flight.fly(2);
+  flight.miss(3);
+  const double dive[3] = {0.4, 0, -1};
+  for (int slot = 0; slot < 100; ++slot) flight.slot_with_force(0, 0, 0, dive);
+  CHECK(flight.tilt_error_deg() >= 15);
+  flight.fly(3);
+  CHECK(flight.tilt_error_deg() <= 11);
+}

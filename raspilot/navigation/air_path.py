@@ -8,6 +8,8 @@ from bisect import bisect_right
 from typing import NamedTuple
 
 KEPT_S = 4.0
+MAX_GAP_S = 0.5
+"""Longest time without orientation through which the motion is known."""
 _SPARE = 400
 
 
@@ -16,6 +18,7 @@ class AirPoint(NamedTuple):
 
     ``north_m``, ``east_m`` and ``climb_m`` are the distance through the air; ``thrust_m_s`` the
     airspeed that a working motor has given, ``coast_m_s`` the one that drag and climb have.
+    ``unseen_s`` is the time of all gaps in the orientation longer than ``MAX_GAP_S``.
     """
 
     time_s: float
@@ -27,6 +30,7 @@ class AirPoint(NamedTuple):
     north_m_s: float
     east_m_s: float
     yaw_deg: float
+    unseen_s: float = 0.0
 
 
 class AirPath:
@@ -65,6 +69,7 @@ class AirPath:
                 time_s=time_s,
                 north_m=left.north_m + left.north_m_s * passed_s,
                 east_m=left.east_m + left.east_m_s * passed_s,
+                unseen_s=left.unseen_s + (passed_s if passed_s > MAX_GAP_S else 0.0),
             )
         right = points[after]
         share = passed_s / (right.time_s - left.time_s)
@@ -80,6 +85,7 @@ class AirPath:
             near.north_m_s,
             near.east_m_s,
             near.yaw_deg,
+            left.unseen_s + share * (right.unseen_s - left.unseen_s),
         )
 
     def multiply(self, factor: complex) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 
-from raspilot.navigation.air_path import AirPath, AirPoint, multiplied
+from raspilot.navigation.air_path import MAX_GAP_S, AirPath, AirPoint, multiplied
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.airspeed_model import AirspeedModel
 from raspilot.navigation.fix_gate import Fix, FixGate
@@ -15,6 +15,7 @@ from raspilot.navigation.horizontal_filter import (
     POSITION_R_M,
     VELOCITY_R_M_S,
     HorizontalFilter,
+    unseen_variance,
 )
 from raspilot.navigation.motor_watch import MotorWatch
 from raspilot.navigation.vertical_filter import VerticalFilter
@@ -22,8 +23,6 @@ from raspilot.navigation.wind_mean import WindMean
 from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 
 MAX_TIME_S = 1e9
-MAX_GAP_S = 0.5
-"""Longest time without orientation through which the airspeed is integrated."""
 YAW_JUMP_DEG = 20.0
 """Change of the yaw between two frames that is another source or a restart, not a turn."""
 COMPASS_SD_DEG, COMPASS_INITIAL_SD_DEG = 60.0, 20.0
@@ -33,7 +32,6 @@ RECEIVER_SD_M, RECEIVER_ALTITUDE_SD_M = 2.0, 3.0
 MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
 GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
-GAP_SD_M_S = 5.0
 FELT_BEGIN_S, FELT_END_S = 0.5, 0.2
 """How long before its arrival an acceleration was felt."""
 MEASURED_S = 2.5
@@ -137,10 +135,8 @@ class Estimator:
             newest = self._path.newest or newest
         self._roll_deg, self._pitch_deg = roll_deg, pitch_deg
         self._flight.attitude(dt, roll_deg, pitch_deg)
-        if dt > MAX_GAP_S:
-            if self._horizontal is not None:
-                self._horizontal.blur(GAP_SD_M_S * dt)
-        else:
+        is_seen = dt <= MAX_GAP_S
+        if is_seen:
             model.step(dt, roll_deg, pitch_deg, self._throttle)
         north_m_s, east_m_s = model.airspeed_m_s * cosine, model.airspeed_m_s * sine
         # Trapezoid: the mean of the old and the new velocity through the air.
@@ -154,6 +150,7 @@ class Estimator:
             north_m_s,
             east_m_s,
             yaw_deg,
+            newest.unseen_s + (0.0 if is_seen else dt),
         )
         self._path.append(point)
 
@@ -207,6 +204,7 @@ class Estimator:
         speed = self._model.airspeed_m_s * math.hypot(x[2], x[3])
         offset_rad = math.atan2(x[3], x[2])
         in_flight = self._flight.is_in_flight
+        across += unseen_variance(now.unseen_s - then.unseen_s)
         heading_sd = math.degrees(math.sqrt(across)) if filter_.is_oriented else 180.0
         if in_flight:
             position, velocity = self._position_at(now), self._velocity_at(now)
@@ -246,6 +244,8 @@ class Estimator:
         """Return the airspeed of the last fix, and what the model adds since."""
         then = self._measured
         if then is None or now.time_s - then.time_s > MEASURED_S or not self.is_in_flight:
+            return None
+        if now.unseen_s > then.unseen_s:
             return None
         speed = self._measured_m_s + now.coast_m_s - then.coast_m_s
         return speed if self.motor.is_stopped else speed + now.thrust_m_s - then.thrust_m_s

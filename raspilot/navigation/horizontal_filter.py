@@ -13,6 +13,8 @@ POSITION_Q_M, AIRSPEED_Q, THRUST_Q, YAW_Q_RAD, WIND_Q_M_S = 0.3, 0.012, 0.02, 0.
 each m/s that the motor has given, which is uncertain."""
 GUST_M_S = 0.7
 """Standard deviation of each axis of what slow gusts add to the wind until the next fix."""
+UNSEEN_M_S, UNSEEN_RAD_S = 5.0, 0.5
+"""Standard deviations, for each second without orientation, of the motion and of the turn."""
 AIRSPEED_R = 0.25
 """Standard deviation, for one second, of the knowledge that the airspeed model is right."""
 WIND_SD_M_S, FACTOR_SD, POSITION_SD_M = 5.0, 0.15, 10.0
@@ -99,14 +101,17 @@ class HorizontalFilter:
         radial = AIRSPEED_Q**2 * dt + (THRUST_Q * thrust) ** 2 / dt if dt > 0 else 0.0
         across = YAW_Q_RAD**2 * dt
         wind = WIND_Q_M_S**2 * dt
+        unseen_s = now.unseen_s - then.unseen_s
         path = north * north + east * east
         drift = POSITION_Q_M**2 * dt + (wind * dt * dt + max(radial, across) * path) / 3.0
+        drift += (UNSEEN_M_S * unseen_s) ** 2
         r0[0] = min(r0[0] + drift, MAX_SD_M**2)
         r1[1] = min(r1[1] + drift, MAX_SD_M**2)
         if r4[4] < MAX_WIND_SD_M_S**2:
             r4[4] += wind
             r5[5] += wind
-        self.widen(radial, across)
+        turned = unseen_variance(unseen_s)
+        self.widen(radial + turned * turned, across + turned)
 
     def fuse_position(self, north_m: float, east_m: float, sd_m: float) -> None:
         variance = sd_m * sd_m
@@ -172,6 +177,7 @@ class HorizontalFilter:
             factor = (AIRSPEED_Q**2 + YAW_Q_RAD**2) * dt + (THRUST_Q * thrust) ** 2 / dt
             total += 2.0 * POSITION_Q_M**2 * dt + 2.0 * GUST_M_S**2 * dt * dt
             total += (2.0 * WIND_Q_M_S**2 * dt * dt * dt + factor * path) / 3.0
+            total += 2.0 * (UNSEEN_M_S * (now.unseen_s - then.unseen_s)) ** 2
         return min(max(total, 0.0), 2.0 * MAX_SD_M**2)
 
     def blur(self, sd_m: float) -> None:
@@ -208,6 +214,11 @@ class HorizontalFilter:
             row[3] -= part * c3
             row[4] -= part * c4
             row[5] -= part * c5
+
+
+def unseen_variance(unseen_s: float) -> float:
+    """Return that of the heading (rad squared) after a time without orientation."""
+    return min(1.0, (UNSEEN_RAD_S * unseen_s) ** 2)
 
 
 def _diagonal(*deviations: float) -> list[list[float]]:

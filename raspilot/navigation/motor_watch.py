@@ -9,8 +9,8 @@ SIGMA_M_S2 = 0.7
 MAX_EVIDENCE, CERTAIN = 1.5, 4.0
 """Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
 MAX_OFFSET_M_S2, OFFSET_S = 0.5, 20.0
-MAX_PAUSE_S, SETTLING_S = 1.0, 10.0
-"""After a pause the IMU may have been lost: the attitude found anew may be wrong for this time."""
+SETTLING_S = 10.0
+"""After a time without orientation: an attitude found anew may be wrong."""
 
 
 class MotorWatch:
@@ -26,7 +26,8 @@ class MotorWatch:
         self._offset_m_s2 = 0.0
         self._evidence = 0.0
         self._began: AirPoint | None = None
-        self._time_s: float | None = None
+        self._unseen_s = 0.0
+        self._time_s = float("-inf")
         self._settled_s = float("-inf")
 
     def acceleration(self, forward_m_s2: float, begin: AirPoint, end: AirPoint) -> float | None:
@@ -37,9 +38,9 @@ class MotorWatch:
         dt_s = end.time_s - begin.time_s
         thrust = (end.thrust_m_s - begin.thrust_m_s) / dt_s
         rest = forward_m_s2 - (end.coast_m_s - begin.coast_m_s) / dt_s - thrust
-        passed_s = 0.0 if self._time_s is None else end.time_s - self._time_s
-        self._time_s = end.time_s
-        if passed_s > MAX_PAUSE_S:
+        passed_s, self._time_s = min(dt_s, end.time_s - self._time_s), end.time_s
+        if end.unseen_s > self._unseen_s:
+            self._unseen_s = end.unseen_s
             self._settled_s = end.time_s + SETTLING_S
         if end.time_s < self._settled_s:
             self._evidence = 0.0

@@ -222,3 +222,23 @@ def test_time_that_runs_backwards_or_leaps_is_survived(steps):
         circling.estimator.orientation(time_s, angle_deg, angle_deg / 4, angle_deg)
         circling.estimator.fix(circling.fix(time_s), time_s)
         assert all_finite(circling.estimator.state())
+
+
+def test_a_turn_that_no_orientation_showed_changes_neither_airspeed_nor_motor(circling):
+    """The IMU is lost for 3 s: the board's yaw continues from where it was."""
+    for _ in range(round(3.0 / 0.02)):
+        circling.time_s = round(circling.time_s + 0.02, 2)
+        if circling.time_s % 1.0 == 0.0:
+            circling.estimator.fix(circling.fix(circling.time_s - DELAY_S), circling.time_s)
+    circling.yaw_offset_deg -= math.degrees(SPEED_M_S / RADIUS_M * 3.0)
+    circling.fly(0.1)
+    state = circling.estimator.state()
+    assert state.heading_sd_deg > 10.0 and state.measured_airspeed_m_s is None
+    for _ in range(12):
+        state = circling.fly(1).estimator.state()
+        off_deg = state.heading_deg - circling.heading_deg(circling.time_s)
+        assert not state.motor_stopped
+        if circling.time_s > 45.0:
+            assert abs(math.remainder(off_deg, 360.0)) < 6.0
+            assert state.measured_airspeed_m_s == pytest.approx(SPEED_M_S, abs=0.7)
+            assert circling.off_m < 10.0

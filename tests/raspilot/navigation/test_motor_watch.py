@@ -83,8 +83,8 @@ def test_a_motor_that_pulls_again_is_seen(flight):
     assert gained_m_s == pytest.approx(1.5 * seen_s)
 
 
-def test_after_a_pause_the_attitude_may_be_wrong_for_some_seconds(flight):
-    assert flight.fly(1.5, period_s=1.5) is None
+def test_an_attitude_that_was_found_anew_is_not_judged_for_ten_seconds(flight):
+    flight.point = flight.point._replace(unseen_s=3.0)
     assert flight.fly(9.8, error_m_s2=-2.4) is None
     assert flight.fly(9.8) is None
     assert flight.fly(2, lost=1.0)

@@ -57,7 +57,6 @@ constexpr uint8_t FINDING_GROUPS = 16;
 // (tenths of a deg/s).
 constexpr uint8_t FOUND_TILT = 3;
 constexpr uint8_t STILL_TILT = 1;
-constexpr uint8_t FOUND_IN_FLIGHT_TILT = 15;
 constexpr uint8_t KEPT_TILT = 5;
 constexpr uint8_t SATURATED_TILT = 1;
 constexpr uint8_t MEASURED_BIAS = 1;
@@ -129,7 +128,7 @@ OUT_OF_LINE void AttitudeFilter::on_missing() {
 
 /** How the aircraft turned since is unknown: gravity is to be found again. */
 void AttitudeFilter::lose() {
-  has_lost_gravity_ = has_lost_gravity_ || has_gravity_;
+  if (has_gravity_) has_lost_gravity_ = true;
   has_gravity_ = false;
   found_groups_ = 0;
   pending_slots_ = 0;
@@ -262,6 +261,10 @@ OUT_OF_LINE void AttitudeFilter::find_down() {
 void AttitudeFilter::correct() {
   level_.straighten(measured_);
   if (found_groups_ < FINDING_GROUPS) {
+    if (has_lost_gravity_) {
+      tilt_.take_out_turn(measured_[1], measured_[2], attitude_.pitch_rate_16,
+                          attitude_.yaw_rate_16);
+    }
     find_gravity();
     return;
   }
@@ -283,7 +286,7 @@ void AttitudeFilter::find_gravity() {
   }
   if (++found_groups_ < FINDING_GROUPS) return;
   has_gravity_ = true;
-  if (has_lost_gravity_) tilt_.widen(FOUND_IN_FLIGHT_TILT);
+  if (has_lost_gravity_) tilt_.lose();
 }
 
 void AttitudeFilter::apply(TiltCorrection& correction) {

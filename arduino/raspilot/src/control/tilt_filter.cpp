@@ -39,14 +39,14 @@ constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 190;
 // 1 sigma of the observation, for one cycle.
 constexpr float FORCE_SIGMA = 0.1435F;  // g, across the nose
 constexpr float EXCESS_WEIGHT = 6.4F;   // a force is trusted less when it is not 1 g
-constexpr float SPEED_SIGMA = 17.5F;    // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 16.7F;
+constexpr float SPEED_SIGMA = 17.25F;   // m/s, about its mean
 constexpr float MEASURED_SIGMA = 5;     // m/s: its error lasts for many cycles
 constexpr int16_t MAX_OFF_CM_S = 800;   // a measurement that differs by more is wrong
 constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 570;
 constexpr float LOAD_FACTOR_SIGMA = 0.093F;     // g, along down
-constexpr float MEASURED_LOAD_FACTOR_SIGMA = 0.3F;
+constexpr float WEAK_LOAD_FACTOR_SIGMA = 0.3F;
+constexpr float LOST_FORCE_SIGMA = 0.375F;  // g, along the nose: a change of airspeed
 constexpr float STRAIGHT_SIGMA = 2.8F * RAD;   // rad/s: in straight flight a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5.2F * RAD;  // a faster one is a turn
 
@@ -62,10 +62,14 @@ constexpr int16_t TWO_G_Q13 = 16383;
 constexpr int16_t MAX_EXCESS_Q13 = 1434;
 /** More load than this is a pull-up: it does not end within a cycle or two. */
 constexpr int16_t MAX_LOAD_FACTOR_ERROR_Q13 = 2048;
-/** A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. */
+/**
+ * A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. For
+ * 8.6 s the tilt is then as uncertain as it was for the first of them by 10 degrees, less in each.
+ */
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr uint8_t LOST_CYCLES = 10;
-constexpr float LOST_TILT = 10 * RAD;
+constexpr uint8_t FOUND_CYCLES = LOST_CYCLES + 30;
+constexpr float LOST_WALK = 2.5F * RAD;
 
 OUT_OF_LINE void add_product(float* sum, const float* a, float b) { *sum += *a * b; }
 
@@ -82,6 +86,11 @@ OUT_OF_LINE int16_t to_fixed(float value, float scale) {
   return to_int16(static_cast<int32_t>(value * scale));
 }
 
+/** Adds a force that is a rate times SPEED_TO_FORCE. */
+OUT_OF_LINE void add_force(int16_t& sum_q13, int32_t force) {
+  sum_q13 = clamped16(sum_of(sum_q13, to_int16(shifted(force, 9))), TWO_G_Q13);
+}
+
 }  // namespace
 
 OUT_OF_LINE float& TiltFilter::covariance(uint8_t row, uint8_t column) {
@@ -89,6 +98,8 @@ OUT_OF_LINE float& TiltFilter::covariance(uint8_t row, uint8_t column) {
   const uint8_t high = row < column ? column : row;
   return covariance_[static_cast<uint8_t>(high * (high + 1)) / 2 + low];
 }
+
+bool TiltFilter::is_lost() const { return lost_cycles_ >= LOST_CYCLES; }
 
 OUT_OF_LINE void TiltFilter::restart() {
   groups_ = 0;
@@ -118,6 +129,8 @@ OUT_OF_LINE void TiltFilter::widen(uint8_t tilt_deg) {
   add_noise(from_fixed(tilt_deg, RAD), 0, 0);
 }
 
+void TiltFilter::lose() { lost_cycles_ = LOST_CYCLES; }
+
 void TiltFilter::collect(const int16_t* difference_q13, int16_t pitch_rate_16,
                          int16_t yaw_rate_16) {
   if (groups_ == GROUPS) return;
@@ -137,26 +150,32 @@ OUT_OF_LINE void TiltFilter::add(uint8_t to, uint8_t from, float factor) {
   add_product(&covariance(to, to), &covariance(to, from), factor);
 }
 
-/** Mean of a sum of forces, Q13, with the centripetal force added. */
-OUT_OF_LINE int16_t TiltFilter::force(Sum across, int32_t turning) const {
-  return clamped16(to_int16(shifted(sums_[across], 4) + shifted(turning, 9)), TWO_G_Q13);
+OUT_OF_LINE int16_t TiltFilter::take_out_turn(int16_t& right_q13, int16_t& down_q13,
+                                              int16_t pitch_rate_16, int16_t yaw_rate_16) const {
+  const int16_t per_rate = to_fixed(speed_, SPEED_TO_FORCE);
+  add_force(right_q13, product(yaw_rate_16, per_rate));
+  add_force(down_q13, -product(pitch_rate_16, per_rate));
+  return per_rate;
 }
+
+OUT_OF_LINE int16_t TiltFilter::mean(Sum sum) const { return to_int16(shifted(sums_[sum], 4)); }
 
 /** The forces across the nose without the turn's, and the turn. */
 OUT_OF_LINE void TiltFilter::find_turn(const Attitude& attitude) {
-  int16_t pitch_rate = to_int16(shifted(sums_[PITCH_RATE], 4));
-  int16_t yaw_rate = to_int16(shifted(sums_[YAW_RATE], 4));
-  const int16_t per_rate = to_fixed(speed_, SPEED_TO_FORCE);
-  roll_error_ = force(Y, product(yaw_rate, per_rate));
-  pitch_error_ = force(Z, -product(pitch_rate, per_rate));
+  int16_t pitch_rate = mean(PITCH_RATE);
+  int16_t yaw_rate = mean(YAW_RATE);
+  roll_error_ = mean(Y);
+  pitch_error_ = mean(Z);
+  const int16_t per_rate = take_out_turn(roll_error_, pitch_error_, pitch_rate, yaw_rate);
   turn(yaw_rate, pitch_rate, attitude.sin_roll, attitude.cos_roll);
-  load_factor_error_ = to_int16(shifted(product(pitch_rate, per_rate), 9));
+  load_factor_error_ = 0;
+  add_force(load_factor_error_, product(pitch_rate, per_rate));
   turn_rate_ = from_fixed(yaw_rate, RAD / 16);
 }
 
 /** The attitude's errors as they were in this cycle, and how far they can be trusted. */
 OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
-  int16_t x = force(X, 0);
+  int16_t x = mean(X);
   int16_t y = roll_error_;
   int16_t z = pitch_error_;
   turn(z, y, attitude.sin_roll, attitude.cos_roll);
@@ -171,13 +190,10 @@ OUT_OF_LINE void TiltFilter::find_errors(const Attitude& attitude) {
   noise_ = square(FORCE_SIGMA) + square(from_fixed(excess, EXCESS_WEIGHT * FORCE_UNIT));
   const bool is_far_off = clamped16(x, FAR_OFF_Q13) != x || clamped16(y, FAR_OFF_Q13) != y;
   is_one_g_ = clamped16(excess, MAX_EXCESS_Q13) == excess;
-  if (!is_one_g_) {
-    // A gust or a launch: neither lost nor found.
-  } else if (is_far_off) {
-    if (far_off_cycles_ < LOST_CYCLES) ++far_off_cycles_;
-  } else {
-    far_off_cycles_ = 0;
-  }
+  // Without 1 g a gust or a launch: neither lost nor found.
+  if (!is_one_g_ && !is_lost()) return;
+  ++lost_cycles_;
+  if (lost_cycles_ <= LOST_CYCLES ? !is_far_off : lost_cycles_ == FOUND_CYCLES) lost_cycles_ = 0;
 }
 
 /** Tilt errors turn with the heading and grow with the bias; speed follows the force. */
@@ -215,46 +231,58 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
       speed_ -= from_fixed(pitch_error_, -GRAVITY_M_S2 * CYCLE_S * FORCE_UNIT);
       break;
     default:
-      add_noise(far_off_cycles_ == LOST_CYCLES ? LOST_TILT : TILT_WALK,
+      add_noise(is_lost() ? LOST_WALK : TILT_WALK,
                 cycles_ < EARLY_CYCLES ? EARLY_BIAS_WALK : BIAS_WALK, SPEED_WALK);
       return;
   }
   add(to, from, factor);
 }
 
+/** A tilt that a force shows, Q13. */
+OUT_OF_LINE void TiltFilter::observe(State tilt, int16_t error) {
+  weights_[tilt] = 1;
+  innovation_ = from_fixed(error, FORCE_UNIT);
+}
+
 /** Speed as measured or its mean, roll by the force across the nose, no turn in straight flight. */
 OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& attitude) {
   float per_bias = 1 / static_cast<float>(ONE_Q14);
   if (subject == 0) {
-    weights_[SPEED] = 1;
-    innovation_ = mean_speed_ - speed_;
-    variance_ = SPEED_SIGMA * SPEED_SIGMA;
-    if (cycles_ < EARLY_CYCLES) variance_ = EARLY_SPEED_SIGMA * EARLY_SPEED_SIGMA;
     const int16_t off_cm_s = sum_of(measured_cm_s_, to_fixed(speed_, -100));
     is_measured_ = measured_cm_s_ != 0 && clamped16(off_cm_s, MAX_OFF_CM_S) == off_cm_s;
     measured_cm_s_ = 0;
-    if (is_measured_) {
-      innovation_ = from_fixed(off_cm_s, 0.01F);
-      variance_ = MEASURED_SIGMA * MEASURED_SIGMA;
+    float sigma = LOST_FORCE_SIGMA;
+    if (is_lost() && !is_measured_) {
+      observe(PITCH, pitch_error_);
+    } else {
+      weights_[SPEED] = 1;
+      innovation_ = mean_speed_ - speed_;
+      sigma = SPEED_SIGMA;
+      if (is_measured_) {
+        innovation_ = from_fixed(off_cm_s, 0.01F);
+        sigma = MEASURED_SIGMA;
+      }
     }
+    variance_ = square(sigma);
     return;
   }
   if (subject == 1) {
     per_bias = speed_ * (1 / GRAVITY_M_S2 / ONE_Q14);
-    weights_[ROLL] = 1;
+    observe(ROLL, roll_error_);
     weights_[SPEED] = turn_rate_ * (-1 / GRAVITY_M_S2);
-    innovation_ = from_fixed(roll_error_, FORCE_UNIT);
     variance_ = noise_;
   } else {
     const float steep = square(turn_rate_ * (1 / STRAIGHT_LIMIT));
     if (steep > 1) {
       // The wings carry 1 g on average: more of it shows a roll error as part of the turn's force.
-      if (clamped16(load_factor_error_, MAX_LOAD_FACTOR_ERROR_Q13) == load_factor_error_) {
-        weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
-      }
-      innovation_ = from_fixed(load_factor_error_, FORCE_UNIT);
       // A climb that begins carries more than 1 g, too: with a measured airspeed it counts less.
-      variance_ = square(is_measured_ ? MEASURED_LOAD_FACTOR_SIGMA : LOAD_FACTOR_SIGMA);
+      observe(ROLL, load_factor_error_);
+      weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
+      if (clamped16(load_factor_error_, MAX_LOAD_FACTOR_ERROR_Q13) != load_factor_error_) {
+        weights_[ROLL] = 0;
+      }
+      variance_ =
+          square(is_measured_ || is_lost() ? WEAK_LOAD_FACTOR_SIGMA : LOAD_FACTOR_SIGMA);
       return;
     }
     innovation_ = turn_rate_;

@@ -36,6 +36,14 @@ class TiltFilter {
   void begin(uint8_t tilt_deg, uint8_t bias_10, float speed_m_s);
   /** Samples are missing: the tilt may have changed by `tilt_deg`. The cycle starts over. */
   void widen(uint8_t tilt_deg);
+  /** The tilt was found in flight, or is far off: for seconds it follows the accelerometer. */
+  void lose();
+  /**
+   * Takes the turn's force out of two axes of a direction of down that the accelerometer measured,
+   * Q13; returns the force a rate makes, in Q13 times 512.
+   */
+  int16_t take_out_turn(int16_t& right_q13, int16_t& down_q13, int16_t pitch_rate_16,
+                        int16_t yaw_rate_16) const;
   /** An airspeed that was measured, cm/s: the next cycle takes it in place of the mean. */
   void take_airspeed(int16_t cm_s) { measured_cm_s_ = cm_s; }
   /** 128 and the acceleration along the nose in the last cycle, 1/64 g. */
@@ -55,14 +63,16 @@ class TiltFilter {
   enum State : uint8_t { ROLL, PITCH, BIAS_X, BIAS_Y, BIAS_Z, SPEED, STATES };
   enum Sum : uint8_t { X, Y, Z, PITCH_RATE, YAW_RATE, SUMS };
 
+  bool is_lost() const;
   float& covariance(uint8_t row, uint8_t column);
   void restart();
   void add_noise(float tilt, float bias, float speed);
   void add(uint8_t to, uint8_t from, float factor);
   void find_turn(const Attitude& attitude);
   void find_errors(const Attitude& attitude);
-  int16_t force(Sum across, int32_t turning) const;
+  int16_t mean(Sum sum) const;
   void predict(uint8_t piece, const Attitude& attitude);
+  void observe(State tilt, int16_t error);
   void begin_observation(uint8_t subject, const Attitude& attitude);
   void update(uint8_t piece);
   bool finish(uint8_t piece, const Attitude& attitude, TiltCorrection& correction);
@@ -74,7 +84,7 @@ class TiltFilter {
   int16_t roll_error_;  // Q13
   int16_t pitch_error_;
   int16_t load_factor_error_;
-  uint8_t far_off_cycles_;
+  uint8_t lost_cycles_;  // far off, from LOST_CYCLES on lost
   bool is_one_g_;
   uint8_t cycles_;
   bool is_measured_;  // the airspeed, in this cycle

@@ -27,29 +27,29 @@ constexpr int16_t MAX_AIRSPEED_CM_S = 4000;
 constexpr uint8_t COUNT = sizeof SETPOINT_FIELDS;
 static_assert(sizeof OUTPUT_FIELDS == COUNT, "one count for both");
 
+/** Reads the payload as these fields; false when one is out of range. */
+OUT_OF_LINE bool read(const Request& request, const uint8_t* types, void* fields) {
+  if (!are_in_range(types, COUNT, request.payload)) return false;
+  read_fields(types, COUNT, request.payload, fields);
+  return true;
+}
+
 Reason on_output(Autopilot& autopilot, const Request& request) {
-  if (!are_in_range(OUTPUT_FIELDS, COUNT, request.payload)) return Reason::OUT_OF_RANGE;
   OutputFields fields;
-  read_fields(OUTPUT_FIELDS, COUNT, request.payload, &fields);
+  if (!read(request, OUTPUT_FIELDS, &fields)) return Reason::OUT_OF_RANGE;
   const uint32_t age_us = autopilot.link.orientation_age_us(fields.sequence, request.now_us);
   return autopilot.authority.accept_outputs(fields.pulses_us, age_us, request.now_us);
 }
 
-bool read_setpoint(const Request& request, SetpointFields& fields) {
-  if (!are_in_range(SETPOINT_FIELDS, COUNT, request.payload)) return false;
-  read_fields(SETPOINT_FIELDS, COUNT, request.payload, &fields);
-  return true;
-}
-
 Reason on_setpoint(Autopilot& autopilot, const Request& request) {
   SetpointFields fields;
-  if (!read_setpoint(request, fields)) return Reason::OUT_OF_RANGE;
+  if (!read(request, SETPOINT_FIELDS, &fields)) return Reason::OUT_OF_RANGE;
   return autopilot.authority.accept_setpoint(fields.setpoint, fields.lifetime_ms, request.now_us);
 }
 
 Reason on_return(Autopilot& autopilot, const Request& request) {
   SetpointFields fields;
-  if (!read_setpoint(request, fields)) return Reason::OUT_OF_RANGE;
+  if (!read(request, SETPOINT_FIELDS, &fields)) return Reason::OUT_OF_RANGE;
   return autopilot.authority.accept_return(fields.setpoint, fields.lifetime_ms, request.now_us);
 }
 
