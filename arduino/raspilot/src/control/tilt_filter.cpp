@@ -39,7 +39,7 @@ constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 190;
 // 1 sigma of the observation, for one cycle.
 constexpr float FORCE_SIGMA = 0.1435F;  // g, across the nose
 constexpr float EXCESS_WEIGHT = 6.4F;   // a force is trusted less when it is not 1 g
-constexpr float SPEED_SIGMA = 17.25F;   // m/s, about its mean
+constexpr float SPEED_SIGMA = 16.75F;   // m/s, about its mean
 constexpr float MEASURED_SIGMA = 5;     // m/s: its error lasts for many cycles
 constexpr int16_t MAX_OFF_CM_S = 800;   // a measurement that differs by more is wrong
 constexpr float FIRST_SPEED_SHARE = 0.1F;
