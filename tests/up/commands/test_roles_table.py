@@ -51,8 +51,8 @@ WHO = {
         "up.location.change", "up.location.update", "up.orientation.update",
     ),
     "board": (
-        "arduino.status", "up.acceleration.update", "up.ack", "up.flight.state", "up.orientation.update", "up.rx.update",
-        "up.nack", "up.servo.update",
+        "arduino.status", "up.acceleration.update", "up.ack", "up.flight.state", "up.nack",
+        "up.orientation.update", "up.rx.update", "up.servo.update",
     ),
 }  # fmt: skip
 """Who may send which Command from outside, beside those that include the role."""
