@@ -9,7 +9,8 @@ from tests.android.rotation import SWAP, body_to_world
 NAMES = ("roll", "pitch", "yaw", "roll_rate", "pitch_rate", "yaw_rate")
 YAW_RATE_STEP = 0.125
 MOST = 31_000
-NEAR_DEG = 0.02
+NEAR_DEG = 0.06
+"""Packed telemetry has steps of 0.1 deg."""
 
 
 def attitude(number):

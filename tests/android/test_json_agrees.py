@@ -12,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from tests.support.java import java_program
+from tests.support.java import JARS, java_program
 from tests.support.tools import need_tool
 from up.commands.command import InvalidCommandError, constraint_of, wire_fields
 from up.protocols.general_message import MalformedMessage, decode, encode
@@ -75,7 +75,7 @@ def echo(tmp_path_factory):
     """Return one JVM for all the lines of this file."""
     need_tool("javac", "default-jdk-headless")
     program = java_program()
-    core = program.jars[0]
+    core = ANDROID / "build" / JARS[0]
     classes = tmp_path_factory.mktemp("echo")
     sources = [str(WIRE_TESTS / f"{name}.java") for name in ("JsonEcho", "Vectors")]
     javac = [str(ANDROID / "tools" / "javac"), "-cp", str(core), "-d", str(classes), *sources]

@@ -13,7 +13,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from up_simulator.radio.rc_override import PERIOD_S, RadioLink
-from up_simulator.radio.remote_messages import STATE_FIELDS, write_sticks
+from up_simulator.radio.remote_messages import write_sticks
+
+STATE = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
 
 
 def main(path):
@@ -34,7 +36,7 @@ def main(path):
             snapshot = link.exchange(write_sticks(sticks))
             if snapshot is not told:
                 told = snapshot
-                values = {name: getattr(snapshot.state, name) for name in STATE_FIELDS}
+                values = {name: getattr(snapshot.state, name) for name in STATE}
                 print(
                     json.dumps({"unix_s": time.time(), "mode": snapshot.mode, **values}), flush=True
                 )
