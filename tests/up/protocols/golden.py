@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parents[2] / "vectors"
 FROM_ARDUINO = {
     ord(letter): size
     for letter, size in {
-        "r": 8, "i": 13, "o": 12, "O": 26, "x": 22, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72,
+        "r": 8, "i": 13, "o": 12, "O": 26, "x": 23, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72,
         "C": 54, "s": 0, "a": 0, "d": 0, "h": 2, "b": 2, "B": 2, "l": 8, "p": 3, "t": 48,
     }.items()
 }  # fmt: skip
