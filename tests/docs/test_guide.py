@@ -93,12 +93,7 @@ def test_the_remark_is_in_the_log(flight):
 
 
 def test_a_remark_that_is_too_long_is_refused_in_words(flight):
-    unanswered = 3
-    for _ in range(5):
-        done = flight.run(f"up-ground send --force raspilot.remark text={'x' * 81}")
-        # On a busy machine an answer may come too late.
-        if done.returncode != unanswered:
-            break
+    done = flight.run(f"up-ground send --force raspilot.remark text={'x' * 81}")
     assert done.returncode == 1
     assert "text" in done.stdout + done.stderr and "80" in done.stdout + done.stderr
 

@@ -22,7 +22,8 @@ from up.protocols.handshake import (
 )
 from up.protocols.handshake import broadcast_streams as streams_of
 
-SESSIONS_PER_KEY = 8
+SESSIONS_PER_KEY = 32
+"""Of those in which a Command came, and of the others, so that repeated hellos end only these."""
 IDLE_MS = 150_000
 """A session that is neither used nor renewed ends: a ground renews it each minute."""
 _MAX_ID = BROADCAST - 2
@@ -130,8 +131,8 @@ class AircraftSessions:
         nonce = self._random(NONCE_BYTES)
         keys = SessionKeys(self._aircraft, key.id, key.secret, (hello.nonce, nonce), self._form)
         session = Session(key, hello, keys, self._draw_number(), self._clock_ms())
-        self._make_room(key.id)
         self._sessions[session.number] = session
+        self._make_room(session)
         reply = (SecrecyAnswer if self._secrecy else Answer)(
             key.id,
             hello.nonce,
@@ -151,8 +152,11 @@ class AircraftSessions:
         session = self._sessions.get(place_of(body)[0])
         if session is None:
             raise EnvelopeError("unknown_session")
+        was_confirmed = session.is_confirmed
         payload = session.commands.open(body)
         session.used_ms = self._clock_ms()
+        if not was_confirmed:
+            self._make_room(session)
         return session, payload
 
     def end_idle(self) -> None:
@@ -183,12 +187,17 @@ class AircraftSessions:
             if number not in self._sessions:
                 return number
 
-    def _make_room(self, key_id: bytes) -> None:
-        """End the oldest session of a key beyond its limit, an unconfirmed one first."""
-        known = [each for each in self._sessions.values() if each.key.id == key_id]
-        if len(known) >= SESSIONS_PER_KEY:
-            oldest = min(known, key=lambda each: each.is_confirmed)
-            del self._sessions[oldest.number]
+    def _make_room(self, newest: Session) -> None:
+        """End the least recently used session beside a new one that is beyond the limit."""
+        others = [
+            each
+            for each in self._sessions.values()
+            if each is not newest
+            and each.key.id == newest.key.id
+            and each.is_confirmed is newest.is_confirmed
+        ]
+        if len(others) >= SESSIONS_PER_KEY:
+            del self._sessions[min(others, key=lambda each: each.used_ms).number]
 
     def _end(self, session: Session) -> tuple[Refusal, bytes]:
         key = self._keys.get(session.key.id)

@@ -171,8 +171,42 @@ def test_repeated_hellos_do_not_end_the_session_that_is_used():
     hello = ground.hello()
     others = {air.answer(hello)[0].number for _ in range(3 * SESSIONS_PER_KEY)}
     assert len(others) == 3 * SESSIONS_PER_KEY
-    assert len(air) == SESSIONS_PER_KEY
+    assert len(air) == 1 + SESSIONS_PER_KEY
     assert air.open(ground.seal(b"{}"))[0] is session
+
+
+def opened_beside(air, *, confirms):
+    """Return the ground of another program with the same key."""
+    ground = GroundSession("glider-1", KEY.id, KEY.secret)
+    ground.on_handshake(air.answer(ground.hello())[1])
+    if confirms:
+        air.open(ground.seal(b"{}"))
+    return ground
+
+
+def test_another_program_with_the_key_does_not_end_a_session_before_its_first_command():
+    air, _, _ = opened()
+    for _ in range(2 * SESSIONS_PER_KEY):
+        opened_beside(air, confirms=True)
+    fresh = opened_beside(air, confirms=False)
+    opened_beside(air, confirms=False)
+    assert air.open(fresh.seal(b"{}"))[1] == b"{}"
+
+
+def test_of_the_confirmed_sessions_the_one_that_was_not_used_for_longest_ends():
+    times_ms = [0]
+    air = AircraftSessions("glider-1", lambda: times_ms[0])
+    air.replace_keys({KEY.id: KEY})
+    used, idle = (opened_beside(air, confirms=True) for _ in range(2))
+    for _ in range(2 * SESSIONS_PER_KEY):
+        times_ms[0] += 1
+        opened_beside(air, confirms=True)
+        times_ms[0] += 1
+        air.open(used.seal(b"{}"))
+    assert len(air) == SESSIONS_PER_KEY
+    with pytest.raises(EnvelopeError) as refused:
+        air.open(idle.seal(b"{}"))
+    assert refused.value.code == "unknown_session"
 
 
 def test_a_session_that_is_not_used_ends():
