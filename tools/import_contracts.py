@@ -48,7 +48,7 @@ LAYERS = (
     "base_thread_module | base_periodic_module",
     "base_started_module",
     "base_module",
-    "needs | vetoes | earth | mission",
+    "needs | vetoes | mission",
     "commands | key_ring",
     "cleanup | protocols | context",
     "tls",
@@ -56,7 +56,7 @@ LAYERS = (
     "log",
     "system",
     "output",
-    "fields | version | errors",
+    "fields | version | errors | earth",
 )
 # Up names no cog and no device: it knows roles. These texts of its files are exceptions.
 NAMES_ALLOWED = (

@@ -1,10 +1,11 @@
-"""Distances and bearings on a spherical Earth: within 0.6 % of the ellipsoid, ample for an RC."""
+"""Gravity, distances and bearings on a spherical Earth: within 0.6 % of the ellipsoid."""
 
 from __future__ import annotations
 
 from math import asin, atan2, cos, degrees, radians, sin, sqrt
 
 MEAN_RADIUS_M = 6_371_008.8
+GRAVITY_M_S2 = 9.80665
 
 
 def distance_m(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from up_ground.link_status import LinkState, LinkStatus
+from up_ground.link_status import LinkStatus
 from up_ground.panels import (
     NAVIGATION_ROWS,
     draw_board,
@@ -23,6 +23,7 @@ from up_ground.status_text import (
     age_text,
     control_text,
     flag_text,
+    hop_text,
     link_text,
     number_text,
     security_text,
@@ -116,7 +117,7 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     status, telemetry, settings = state.status, state.telemetry, state.settings
     screen.fill(0, Style.HEADER)
     # The name and the role of the key need the columns.
-    link = link_text(status, now_s).removeprefix(f"{LinkState.OPEN.value}, ")
+    link = hop_text(status) if status.is_open else link_text(status, now_s)
     words = f" {settings.aircraft} at {settings.address}  {link}"
     column = screen.put(0, 0, sanitize_text(words), Style.HEADER)
     if status.is_open and not settings.direct:

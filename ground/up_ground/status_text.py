@@ -130,11 +130,16 @@ def security_text(status: LinkStatus) -> str:
     return f"key {status.key_name} {status.key_refusal or 'not accepted yet'}"
 
 
+def hop_text(status: LinkStatus) -> str:
+    """Return how the connection is protected: plain, or TLS and the peer."""
+    return "plain" if status.tls_peer is None else f"TLS {status.tls_peer}"
+
+
 def link_text(status: LinkStatus, now_s: float) -> str:
-    """Return the state of the connection, and how it is protected: plain, or TLS and the peer."""
+    """Return the state of the connection, and how it is protected."""
     state: str = status.state.value
     if status.is_open:
-        return f"{state}, {'plain' if status.tls_peer is None else f'TLS {status.tls_peer}'}"
+        return f"{state}, {hop_text(status)}"
     if not status.failures:
         return state
     return f"down for {age_text(now_s - status.since_s)}, attempt {status.failures + 1}"

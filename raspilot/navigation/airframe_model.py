@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from up.earth import GRAVITY_M_S2
 from up.flight_modes.navigation_file import NavigationConfig
 
-GRAVITY_M_S2 = 9.80665
 STALL_MARGIN = 1.15
 """The turn's stall speed times this stays below the airspeed."""
 STOP_SEEN_S = 3.5

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel, load_of
+from raspilot.navigation.airframe_model import AirframeModel, load_of
+from up.earth import GRAVITY_M_S2
 
 
 class AirspeedModel:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel
+from raspilot.navigation.airframe_model import AirframeModel
+from up.earth import GRAVITY_M_S2
 from up.flight_modes.demand import Circle
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState, Point

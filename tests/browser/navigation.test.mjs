@@ -17,10 +17,17 @@ before(async () => {
 
 afterEach(() => GroundPage.closeAll());
 
+/** Wait until the page is live and shows the modes that the aircraft reported. */
+async function hasModes(ground) {
+  await ground.isLive();
+  await ground.until(() => document.querySelector('[data-mode="RETURN"]'), "the modes of the aircraft");
+}
+
 /** A page with control that shows such telemetry. */
 async function openWith(data, options) {
   flight.tell({ data });
-  const ground = await (await GroundPage.open(browser, flight.address, options)).isLive();
+  const ground = await GroundPage.open(browser, flight.address, options);
+  await hasModes(ground);
   await ground.takeControl();
   await ground.page.evaluate(() => {
     window.testSent = [];
@@ -181,6 +188,7 @@ test("the flying view has attitude, map, RETURN and every mode on a small screen
   // The choice lasts; on another screen everything is shown until it is chosen there.
   await ground.press("#view-button");
   await ground.page.reload();
+  await hasModes(ground);
   assert.equal(await ground.attribute("html", "data-view"), "all");
   await ground.press("#view-button");
   await ground.page.setViewportSize({ width: 390, height: 844 });

@@ -7,8 +7,9 @@ from twisted.internet.defer import Deferred, succeed
 
 from tests.cogs.peers import Server, connect
 from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.removed_rules import no_counter, no_direction, no_mac
 from up.config.keys_file import KeyConfig, add_key, revoke_key
-from up.protocols import aircraft_sessions, envelope, handshake
+from up.protocols import aircraft_sessions, envelope
 from up.protocols.general_message import encode
 from up.protocols.ground_session import GroundSession
 from up.protocols.pairing import Pairing
@@ -25,26 +26,6 @@ from up_simulator.phone import address
 SPAWN = b'{"aircraft": "glider-1"}'
 PLACE = b'{"running": true, "ports": {"general": 1, "orientation": 1}, "code": null}'
 STATUS = b'{"aircraft": "glider-1", "action": "status"}'
-
-
-def _yes(*_):
-    return True
-
-
-def no_mac(m):
-    m.setattr(envelope, "is_authentic", _yes)
-    m.setattr(handshake, "is_authentic", _yes)
-
-
-def no_counter(m):
-    m.setattr(envelope, "is_newer", _yes)
-
-
-def no_direction(m):
-    """One key for both directions; the counters would still refuse it."""
-    real = handshake.SessionKeys.stream
-    m.setattr(handshake.SessionKeys, "stream", lambda k, _, number: real(k, b"one", number))
-    no_counter(m)
 
 
 def same_random(m):

@@ -19,9 +19,9 @@ from up.commands.board_schema import (
     Reason,
 )
 from up.commands.schema_rows import Datum
+from up.earth import GRAVITY_M_S2
 
 TOPIC = "arduino.status"
-GRAVITY_M_S2 = 9.81
 
 
 def has_bit(status: Mapping[str, Any], key: str, bit: int) -> bool | None:

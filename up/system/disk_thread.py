@@ -19,8 +19,7 @@ class DiskThread:
     """Runs each piece of work on a daemon thread, one at a time and in their order.
 
     A disk that hangs does not prevent the program from ending. The results fire on the reactor's
-    thread. A reactor with simulated time has ``start_thread``, which does the
-    work immediately.
+    thread. A reactor with simulated time has ``start_thread``, which does the work immediately.
     """
 
     def __init__(self, reactor: Any) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from typing import TYPE_CHECKING, Any
-
-from twisted.internet.threads import deferToThreadPool
 
 from up.protocols.general_message import GeneralMessage
 from up.protocols.handshake import ROLES
 from up.protocols.pairing import Pairing
 from up.system.clock import Timer
+from up.system.disk_thread import DiskThread
 from up.system.token_bucket import TokenBucket
 from up_ground.catalogue import Catalogue
 from up_ground.ground_link import GroundLink
@@ -217,8 +217,7 @@ class AircraftSession(AircraftSource):
         if self.control.holder not in (None, page):
             # The link has no session until the aircraft has answered the new key.
             raise PageFault("another page has control of this aircraft", "no_control")
-        threads = self._reactor.getThreadPool()
-        await deferToThreadPool(self._reactor, threads, self._keys.put, pairing)
+        await DiskThread(self._reactor).run(partial(self._keys.put, pairing))
         self.link.pair(pairing)
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:

@@ -6,11 +6,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from up.earth import bearing_deg, distance_m
+from up.earth import GRAVITY_M_S2, bearing_deg, distance_m
 from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
 
-GRAVITY_M_S2 = 9.80665
 HALF_TRAVEL_US = 500
 ARMS_S, CLIMBS_S = 1.0, 2.0
 """AUX2 rises, unless the board was armed on the ground, and counts after 300 ms; then the motor."""

@@ -15,11 +15,12 @@ from mission_control_cog.modules.mission_control_provider import MissionControlP
 
 from tests.cogs.mission_control_cog import attacks
 from tests.cogs.mission_control_cog.hostile_relay import fly
+from tests.support.removed_rules import no_counter, no_direction, no_mac, yes
 from up import key_ring
 from up.commands.beacon import Beacons
 from up.commands.roles import Role
 from up.config.keys_file import KeyConfig
-from up.protocols import aircraft_sessions, envelope, ground_session, handshake
+from up.protocols import aircraft_sessions, envelope, ground_session
 from up.protocols.encrypted_stream import EncryptedStream
 from up_ground import telemetry
 from up_ground.link_security import LinkSecurity
@@ -51,28 +52,8 @@ def attempt(attack: Attack, folder: Path, is_rule_kept: bool = True) -> tuple[in
         return fly(attack.run, folder, **attack.scene)
 
 
-def _yes(*_):
-    return True
-
-
-def no_mac(m):
-    m.setattr(envelope, "is_authentic", _yes)
-    m.setattr(handshake, "is_authentic", _yes)
-
-
-def no_counter(m):
-    m.setattr(envelope, "is_newer", _yes)
-
-
-def no_direction(m):
-    """One key for both directions; the counters would still refuse it."""
-    real = handshake.SessionKeys.stream
-    m.setattr(handshake.SessionKeys, "stream", lambda k, _, number: real(k, b"one", number))
-    no_counter(m)
-
-
 def no_age(m):
-    m.setattr(Beacons, "is_fresh", _yes)
+    m.setattr(Beacons, "is_fresh", yes)
 
 
 def plain_accepted(m):
@@ -134,7 +115,7 @@ def same_random(m):
     m.setattr(
         ground_session.GroundSession, "__init__", lambda g, *args: real_ground(g, *args, constant)
     )
-    m.setattr(Beacons, "was_sent", _yes)
+    m.setattr(Beacons, "was_sent", yes)
     no_age(m)
 
 

@@ -63,8 +63,8 @@ constexpr int16_t MAX_EXCESS_Q13 = 1434;
 /** More load than this is a pull-up: it does not end within a cycle or two. */
 constexpr int16_t MAX_LOAD_FACTOR_ERROR_Q13 = 2048;
 /**
- * A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. For
- * 8.6 s the tilt is then as uncertain as it was for the first of them by 10 degrees, less in each.
+ * A force of 1 g that differs by 30 degrees is a gust; for 3 s it is an attitude that is lost. In
+ * each cycle of the next 8.6 s the tilt may then change by LOST_WALK.
  */
 constexpr int16_t FAR_OFF_Q13 = 4096;
 constexpr uint8_t LOST_CYCLES = 10;

@@ -10,6 +10,7 @@ from up.commands.roles import Role
 from up.flight_controller.profile_wire import Profile, nested
 
 CALIBRATIONS = {"level": 0, "receiver_begin": 1, "receiver_end": 2, "gyro": 3}
+MAX_V = 65.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,9 +25,6 @@ class ArduinoCalibrateCommand(BaseCommand):
     TITLE: ClassVar[str] = "Calibrate {}"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
     what: str = value(choices=tuple(CALIBRATIONS))
-
-
-MAX_V = 65.0
 
 
 @dataclass(frozen=True, slots=True)
