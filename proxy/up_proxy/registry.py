@@ -1,4 +1,4 @@
-"""All aircraft with connections, by name."""
+"""All aircraft with connections, by name; ``handshake.py`` admits a second one of a name."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,7 @@
-"""Decides which failsafe acts: delays, priority, and what ends one. No Twisted."""
+"""Decides which failsafe acts: delays, priority, and what ends one. No Twisted.
+
+A new trigger is a key of ``config.py`` and a condition in ``raspilot/modules/failsafes.py``.
+"""
 
 from __future__ import annotations
 

@@ -145,6 +145,10 @@ class DaemonParticipants(Participants, ABC):
                 self._command_raspilot(event.raspilot or "started")
             case "cpu_load_percent" if event.cpu_load_percent is not None:
                 self.load(event.cpu_load_percent)
+            case "phone" | "gps" | "phone_battery":
+                """Flown without a phone."""
+            case kind:
+                raise ParticipantError(f"nothing in the simulator carries out '{kind}'")
 
     def stop(self) -> None:
         self._should_run = False

@@ -4,7 +4,7 @@ namespace raspilot {
 
 namespace {
 
-constexpr uint16_t LOSS_UNITS = units_at_least(500);
+constexpr uint16_t LOSS_UNITS = units_at_least(500);  // A lost receiver: failsafe after this.
 // More than one frame of any receiver (22 ms).
 constexpr uint16_t RETURN_UNITS = units_at_least(30);
 // Three frames of any receiver.

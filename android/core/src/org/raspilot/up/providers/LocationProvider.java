@@ -15,7 +15,7 @@ public final class LocationProvider extends SensorProvider<Fix> {
     private static final double MAX_AGE_MS = 60000;
     private static final int MAX_SATELLITES = 255;
 
-    /** Takes the GPS, and how often a fix leaves at most, ms. */
+    /** Takes the GPS, and how often a fix leaves at most, ms ({@code AirborneSettings}). */
     public LocationProvider(SensorSource<Fix> source, int periodMs) {
         super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
     }
