@@ -79,7 +79,8 @@ public final class DiscoveryClient implements EndpointDiscovery {
                 udp = loop.network().openUdp(this);
             } catch (IOException error) {
                 isPending = false;
-                listener.onNotFound("no socket to ask Discovery with: " + error.getMessage());
+                listener.onNotFound("not_found",
+                        "no socket to ask Discovery with: " + error.getMessage());
                 return;
             }
             limit = loop.schedule(ANSWER_MS, () -> giveUp());
@@ -130,7 +131,8 @@ public final class DiscoveryClient implements EndpointDiscovery {
             cancel();
             final List<String> asked = addresses.current();
             final String where = asked + " port " + port;
-            listener.onNotFound(wasSent ? "no answer from Discovery at " + where + refused
+            listener.onNotFound("not_found", wasSent
+                    ? "no answer from Discovery at " + where + refused
                     : "no network to ask for Discovery in: " + where);
         }
     }

@@ -47,7 +47,8 @@ public final class RunnerAnswer {
         if (!(Boolean) isRunning) {
             final String error = text(answer, "error");
             final String message = text(answer, "message");
-            throw new RefusedException("refused", "the runner says: "
+            final String code = text(answer, "code");
+            throw new RefusedException(code != null ? code : "refused", "the runner says: "
                     + (error != null ? error : message != null ? message : "nothing runs"));
         }
         final Map<?, ?> ports = object(answer, "ports");
@@ -105,7 +106,7 @@ public final class RunnerAnswer {
     /** No place is to be had; the message is a sentence without a full stop. */
     static final class RefusedException extends Exception {
         private static final long serialVersionUID = 1L;
-        /** {@code refused no_ports not_understood}. */
+        /** {@code refused no_ports not_understood}, or the runner's. */
         final String code;
 
         RefusedException(String code, String sentence) {

@@ -6,6 +6,7 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
+import org.raspilot.up.tls.TlsConnection;
 
 /**
  * Keeps one connection to a peer: finds it, connects, and reconnects after a loss.
@@ -247,14 +248,14 @@ public final class UpSocket {
             final int port = settings.isRaw ? found.orientationPort : found.generalPort;
             peer = found.host + ":" + port;
             setState(UpSocketStatus.State.CONNECTING, "", "connecting to " + peer);
-            connection = loop.network().connectTcp(found.host, port,
+            connection = TlsConnection.open(loop, settings.tls, found.host, port,
                     settings.connectTimeoutMs, this);
         }
 
         @Override
-        public void onNotFound(String reason) {
+        public void onNotFound(String code, String reason) {
             if (current == this) {
-                drop("not_found", reason);
+                drop(code, reason);
             }
         }
 
@@ -284,8 +285,8 @@ public final class UpSocket {
         }
 
         @Override
-        public void onClosed(String reason) {
-            drop("closed", reason);
+        public void onClosed(String code, String reason) {
+            drop(code, reason);
         }
     }
 }

@@ -21,7 +21,7 @@ public final class OrientationSenderTest {
     private Endpoint answer = new Endpoint("192.0.2.7", 50001, 50000);
     private final LastEndpoint known = new LastEndpoint(listener -> {
         if (answer == null) {
-            listener.onNotFound("nowhere");
+            listener.onNotFound("not_found", "nowhere");
         } else {
             listener.onFound(answer);
         }

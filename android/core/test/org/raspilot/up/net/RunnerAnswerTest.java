@@ -6,8 +6,6 @@ import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
-import java.util.Collections;
-import java.util.Map;
 import org.junit.Test;
 import org.raspilot.up.net.SettingRules.InvalidSettingException;
 
@@ -86,12 +84,9 @@ public final class RunnerAnswerTest {
 
     @Test
     public void aRequestNamesWhatIsAsked() throws Exception {
-        assertEquals("{\"aircraft\": \"glider-1\"}\n", line("glider-1", null, null));
-        final Map<String, ?> configuration = Collections.singletonMap("load_guard.yml",
-                Collections.singletonMap("interval", 1.0));
-        assertEquals("{\"aircraft\": \"a\", \"profile\": \"easyglider\", \"configuration\":"
-                + " {\"load_guard.yml\": {\"interval\": 1.0}}}\n",
-                line("a", "easyglider", configuration));
+        assertEquals("{\"aircraft\": \"glider-1\"}", new RunnerRequest("glider-1", "", null).json);
+        assertEquals("{\"aircraft\": \"a\", \"profile\": \"easyglider\"}",
+                new RunnerRequest("a", "easyglider", null).json);
     }
 
     @Test
@@ -99,20 +94,8 @@ public final class RunnerAnswerTest {
         for (String name : new String[] {null, "", ".hidden", "a b", "a\n", "a/b", "\u00e4",
             "x12345678901234567890123456789012"}) {
             assertThrows(name, InvalidSettingException.class, () ->
-                    new RunnerRequest(name, null, null));
+                    new RunnerRequest(name, "", null));
         }
-    }
-
-    @Test
-    public void aRequestThatNoRunnerReadsIsNotMade() {
-        final String much = new String(new char[65536]).replace('\0', 'x');
-        assertThrows(IllegalArgumentException.class, () ->
-                new RunnerRequest("a", null, Collections.singletonMap("a.yml", much)));
-    }
-
-    private static String line(String aircraft, String profile, Map<String, ?> configuration)
-            throws Exception {
-        return new String(new RunnerRequest(aircraft, profile, configuration).toLine(), "UTF-8");
     }
 
     private static void assertRefused(String code, String end, String line) {

@@ -23,7 +23,7 @@ import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
 
 public final class RunnerClientTest {
-    private static final RunnerRequest REQUEST = new RunnerRequest("glider-1", null, null);
+    private static final RunnerRequest REQUEST = new RunnerRequest("glider-1", "", null);
     private static final String ASKED = "{\"aircraft\": \"glider-1\"}\n";
     private static final String ANSWER =
             "{\"running\": true, \"ports\": {\"general\": 50001, \"orientation\": 50000}}";
@@ -33,7 +33,7 @@ public final class RunnerClientTest {
     private final Faults faults = new Faults();
     private final ScriptedNetwork network = new ScriptedNetwork();
     private final ManualLoop loop = new ManualLoop(network, faults);
-    private final RunnerClient client = new RunnerClient(loop, "runner", 3002, REQUEST);
+    private final RunnerClient client = new RunnerClient(loop, "runner", 3002, null, REQUEST);
     private final Found found = new Found();
 
     @After
@@ -163,7 +163,7 @@ public final class RunnerClientTest {
 
     private void find(final ServerSocket server) {
         running.call(() -> {
-            return new RunnerClient(running.loop, "127.0.0.1", server.getLocalPort(), REQUEST)
+            return new RunnerClient(running.loop, "127.0.0.1", server.getLocalPort(), null, REQUEST)
                     .find(found);
         });
     }

@@ -214,7 +214,7 @@ public final class UpSocketTest {
         final Finder discovery = new Finder();
         final UpSocket lost = socket(discovery, diary);
         lost.start();
-        discovery.listener.onNotFound("no answer from Discovery");
+        discovery.listener.onNotFound("not_found", "no answer from Discovery");
         assertEquals("not_found", lost.status().code);
         assertNull(lost.status().endpoint);
         loop.advance(600);
