@@ -51,7 +51,7 @@ final class SpawnRequests {
             return;
         }
         SpawnService.request(application, settings.runnerHost, settings.runnerPort,
-                settings.aircraft, settings.profile, answers);
+                settings.runnerTls != null, settings.aircraft, settings.profile, answers);
         setAsking(true);
     }
 

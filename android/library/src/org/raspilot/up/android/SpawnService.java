@@ -32,6 +32,7 @@ public final class SpawnService extends IntentService {
     private static final String PORT = "port";
     private static final String AIRCRAFT = "aircraft";
     private static final String PROFILE = "profile";
+    private static final String IS_TLS = "tls";
     private static final String ANSWER = "answer";
 
     public SpawnService() {
@@ -41,17 +42,19 @@ public final class SpawnService extends IntentService {
     }
 
     /**
-     * Sends a request.
+     * Sends a request, signed by this phone's key of the aircraft if there is one.
      *
+     * @param isTls by TLS with this phone's certificates, or plain
      * @param aircraft the aircraft's name
      * @param profile a ready-made configuration of the runner; empty: none
      * @param answer receives one message with {@link #result}
      */
-    public static void request(Context context, String host, int port, String aircraft,
-            String profile, Messenger answer) {
+    public static void request(Context context, String host, int port, boolean isTls,
+            String aircraft, String profile, Messenger answer) {
         context.startService(new Intent(context, SpawnService.class)
                 .putExtra(HOST, host)
                 .putExtra(PORT, port)
+                .putExtra(IS_TLS, isTls)
                 .putExtra(AIRCRAFT, aircraft)
                 .putExtra(PROFILE, profile)
                 .putExtra(ANSWER, answer));
@@ -71,7 +74,7 @@ public final class SpawnService extends IntentService {
         reply(answer, run(intent));
     }
 
-    private static SpawnResult run(Intent intent) {
+    private SpawnResult run(Intent intent) {
         SelectorLoop loop = new SelectorLoop("up spawn loop", fault ->
                 Log.e(TAG, "up spawn failed in a call", fault), new SleepClock());
         BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<>(1);
@@ -90,13 +93,16 @@ public final class SpawnService extends IntentService {
         }
     }
 
-    private static void send(Intent intent, Loop loop, BlockingQueue<SpawnResult> results) {
+    private void send(Intent intent, Loop loop, BlockingQueue<SpawnResult> results) {
         final RunnerClient client;
         try {
-            String profile = intent.getStringExtra(PROFILE);
+            String aircraft = intent.getStringExtra(AIRCRAFT);
+            // Secrets do not travel in an intent.
             client = new RunnerClient(loop, intent.getStringExtra(HOST),
-                    intent.getIntExtra(PORT, 0), new RunnerRequest(intent.getStringExtra(AIRCRAFT),
-                            profile == null || profile.isEmpty() ? null : profile, null));
+                    intent.getIntExtra(PORT, 0), intent.getBooleanExtra(IS_TLS, false)
+                            ? new CertificateStore(this).get() : null,
+                    new RunnerRequest(aircraft, intent.getStringExtra(PROFILE),
+                            new PairingStore(this).get(aircraft)));
         } catch (IllegalArgumentException wrong) {
             results.add(SpawnResult.refused(wrong.getMessage()));
             return;
@@ -108,8 +114,8 @@ public final class SpawnService extends IntentService {
             }
 
             @Override
-            public void onNotFound(String reason) {
-                results.add(SpawnResult.refused(reason));
+            public void onNotFound(String code, String reason) {
+                results.add(SpawnResult.refused(reason + " (" + code + ")"));
             }
         });
     }

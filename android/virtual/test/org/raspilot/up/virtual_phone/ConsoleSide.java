@@ -63,8 +63,10 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         } else if (line.containsKey("seat")) {
             seat(line.get("seat"));
         } else if (line.containsKey("options")) {
-            options = ConsoleOptions.read(String.valueOf(line.get("options")).split(" "));
+            String given = String.valueOf(line.get("options"));
+            options = ConsoleOptions.read(given.split(" "));
             ground.stop();
+            words.notice("options", given);
             connect();
         } else {
             throw new OptionException("a line has neither send, gains, seat nor options");
