@@ -21,6 +21,8 @@ import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
+import org.raspilot.up.security.Pairing;
+import org.raspilot.up.security.TestAircraft;
 
 public final class RunnerClientTest {
     private static final RunnerRequest REQUEST = new RunnerRequest("glider-1", "", null);
@@ -71,8 +73,28 @@ public final class RunnerClientTest {
         network.newest().accept();
         network.newest().say("{\"running\": false, \"error\": \"no profile\"}\n");
         assertTrue(found.told.get(0).endsWith(": no profile"));
+        assertEquals(Arrays.asList("refused"), found.codes);
         assertTrue(network.newest().isClosed);
         assertNull(client.lastAnswer());
+    }
+
+    @Test
+    public void aRefusalHasTheRunnersCode() {
+        client.find(found);
+        network.newest().accept();
+        network.newest().say("{\"running\": false, \"code\": \"unprotected\"}\n");
+        assertEquals(Arrays.asList("unprotected"), found.codes);
+    }
+
+    @Test
+    public void withAKeyAPlainAnswerIsNotBelieved() {
+        new RunnerClient(loop, "runner", 3002, null, new RunnerRequest("glider-1", "",
+                Pairing.parse(TestAircraft.TEXT))).find(found);
+        network.newest().accept();
+        assertFalse(network.newest().written().contains("aircraft"));
+        network.newest().say(ANSWER + "\n");
+        assertEquals(Arrays.asList("unprotected"), found.codes);
+        assertTrue(network.newest().isClosed);
     }
 
     @Test
