@@ -12,9 +12,13 @@ import android.app.AlertDialog;
 import android.content.Context;
 import android.content.Intent;
 import android.content.SharedPreferences;
+import android.net.Uri;
 import android.os.Build;
 import android.preference.Preference;
 import android.preference.PreferenceCategory;
+import java.io.ByteArrayInputStream;
+import java.nio.file.Files;
+import java.nio.file.Paths;
 import java.security.Security;
 import org.junit.After;
 import org.junit.Before;
@@ -29,7 +33,7 @@ import org.robolectric.shadows.ShadowToast;
 public final class KeySettingsTest extends AppBench {
     private static final String SECRET =
             "000102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f";
-    private static final String TEXT = "upkey:1:glider-1:0001020304050607:" + SECRET
+    static final String TEXT = "upkey:1:glider-1:0001020304050607:" + SECRET
             + ":pilot:tablet";
 
     private SettingsFragment settings;
@@ -158,6 +162,41 @@ public final class KeySettingsTest extends AppBench {
         boolean isPlain = file().getAll().toString().contains(SECRET);
         assertEquals(Build.VERSION.SDK_INT < 23, isPlain);
         assertEquals(TEXT, new PairingStore(handset.application).get("glider-1").toText());
+    }
+
+    @Test
+    @Config(sdk = 29)
+    public void tlsNeedsTheCertificatesOfAFileAndIsNeverPlain() throws Exception {
+        handset.preferences().edit().putBoolean("ground_tls", true).commit();
+        assertThrows(IllegalArgumentException.class, () -> ground());
+        openSettings();
+        Preference shown = preference(R.string.key_certificate);
+        shown.getOnPreferenceClickListener().onPreferenceClick(shown);
+        assertEquals(Intent.ACTION_GET_CONTENT, shadowOf((Activity) handset.window.get())
+                .getNextStartedActivityForResult().intent.getAction());
+        choose("-----BEGIN NOTHING-----");
+        mustSay("not used", ShadowToast.getTextOfLatestToast());
+        assertThrows(IllegalArgumentException.class, () -> ground());
+        String text = new String(Files.readAllBytes(
+                Paths.get(System.getProperty("vectors"), "tls.pem")), "US-ASCII");
+        choose(text);
+        assertEquals("relay", ground().tls.name);
+        mustSay("relay", shown.getSummary().toString());
+        assertFalse(handset.application.getSharedPreferences("up_tls", Context.MODE_PRIVATE)
+                .getAll().toString().contains("BEGIN"));
+        shown.getOnPreferenceClickListener().onPreferenceClick(shown);
+        ShadowAlertDialog.getLatestAlertDialog().getButton(AlertDialog.BUTTON_POSITIVE)
+                .performClick();
+        Wait.pass(0);
+        assertThrows(IllegalArgumentException.class, () -> ground());
+    }
+
+    private void choose(String text) throws Exception {
+        Uri file = Uri.parse("content://files/" + text.length());
+        shadowOf(handset.application.getContentResolver()).registerInputStream(file,
+                new ByteArrayInputStream(text.getBytes("US-ASCII")));
+        settings.onActivityResult(CertificateSettings.FILE, Activity.RESULT_OK,
+                new Intent().setData(file));
     }
 
     @Test

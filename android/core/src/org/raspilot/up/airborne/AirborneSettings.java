@@ -85,6 +85,12 @@ public final class AirborneSettings {
         return mode == AirborneMode.BLACK_BOX && !runnerHost.isEmpty();
     }
 
+    /** Returns how the request to the runner is protected, without a full stop. */
+    public String runnerSecurityText() {
+        final String hop = runnerTls == null ? "plain" : "TLS";
+        return pairing == null ? hop : hop + ", signed by " + pairing;
+    }
+
     /**
      * Returns the transport of orientation in this mode. In Flight Controller Mode the Arduino's
      * orientation is used, and the phone's is off unless redundancy is wanted (thesis 4.2.3).
