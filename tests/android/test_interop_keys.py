@@ -57,7 +57,7 @@ def pairing_of(daemon, name, role):
     return Pairing(AIRCRAFT, key_id, key.secret, role, name).encode()
 
 
-def test_a_paired_phone_commands_by_tls_until_its_key_is_revoked(proxy, daemon, own):
+def test_a_paired_phone_commands_until_its_key_is_revoked(proxy, daemon, own):
     plain = ("--proxy", f"{SERVER}:{proxy.ground_port}", *AT)
     pilot, watcher = pairing_of(daemon, "tablet", "pilot"), pairing_of(daemon, "watch", "observer")
     tls = ("--tls", own.authority.folder / "tablet", "--pairing", pilot)
@@ -99,14 +99,15 @@ def test_a_paired_phone_commands_by_tls_until_its_key_is_revoked(proxy, daemon, 
 
 
 def refusal(console, port, folder):
-    """Return the code with which a connection by TLS ends."""
+    """Return the code with which a connection by TLS ends; OPEN: it was accepted."""
     options = f"--proxy {SERVER}:{port} --tls {folder}"
     console.say(options=options)
 
     def code():
         taken = [at for at, said in list(console.events) if said.get("text") == options]
         told = console.all("status", taken[-1]) if taken else []
-        return next((each["code"] for each in told if each["code"].startswith("tls_")), None)
+        ends = (each["link"] if each["link"] == "OPEN" else each["code"] for each in told)
+        return next((each for each in ends if each.startswith(("tls_", "OPEN"))), None)
 
     return console.until(code, "a code")
 

@@ -170,7 +170,7 @@ public final class TlsConnectionTest implements TcpListener {
         int taken = connection.write(sent, 0, sent.length);
         assertTrue("more than a record waits: " + taken, taken <= 16384);
         assertEquals(0, connection.write(sent, taken, 1));
-        while (taken < sent.length) {
+        for (int at = 0; at < 100 && taken < sent.length; at++) {
             told.clear();
             peer.makeRoom(5000);
             server.pump();
@@ -178,6 +178,7 @@ public final class TlsConnectionTest implements TcpListener {
                 taken += connection.write(sent, taken, sent.length - taken);
             }
         }
+        assertEquals(sent.length, taken);
         peer.makeRoom(Integer.MAX_VALUE);
         settle();
         assertArrayEquals(sent, server.heard.toByteArray());
