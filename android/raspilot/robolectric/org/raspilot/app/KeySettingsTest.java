@@ -90,7 +90,7 @@ public final class KeySettingsTest extends AppBench {
         assertFalse(handset.preferences().getAll().toString().contains(SECRET));
         boolean isPlain = file().getAll().toString().contains(SECRET);
         assertEquals(Build.VERSION.SDK_INT < 23, isPlain);
-        Preference shown = keys().getPreference(2);
+        Preference shown = keys().getPreference(3);
         assertEquals("glider-1", shown.getTitle());
         mustSay("tablet (pilot)", shown.getSummary().toString());
     }
@@ -102,7 +102,7 @@ public final class KeySettingsTest extends AppBench {
         paste(TEXT);
         paste(TEXT.replace("glider-1", "glider-2"));
         paste(TEXT.replace(":pilot:", ":observer:"));
-        assertEquals(4, keys().getPreferenceCount());
+        assertEquals(5, keys().getPreferenceCount());
         assertEquals("observer", new PairingStore(handset.application).get("glider-1").role);
         assertEquals("pilot", new PairingStore(handset.application).get("glider-2").role);
     }
@@ -115,11 +115,11 @@ public final class KeySettingsTest extends AppBench {
         assertEquals(handset.application.getString(R.string.pairing_invalid),
                 ShadowToast.getTextOfLatestToast());
         shadowOf(handset.application).checkActivities(true);
-        Preference scan = keys().getPreference(1);
+        Preference scan = keys().getPreference(2);
         scan.getOnPreferenceClickListener().onPreferenceClick(scan);
         assertEquals(handset.application.getString(R.string.scan_none),
                 ShadowToast.getTextOfLatestToast());
-        assertEquals(2, keys().getPreferenceCount());
+        assertEquals(3, keys().getPreferenceCount());
         assertNull(ground().pairing);
     }
 
@@ -128,14 +128,14 @@ public final class KeySettingsTest extends AppBench {
     public void aKeyIsForgottenAfterAQuestion() {
         openSettings();
         paste(TEXT);
-        Preference shown = keys().getPreference(2);
+        Preference shown = keys().getPreference(3);
         shown.getOnPreferenceClickListener().onPreferenceClick(shown);
         assertEquals("tablet", ground().pairing.name);
         ShadowAlertDialog.getLatestAlertDialog().getButton(AlertDialog.BUTTON_POSITIVE)
                 .performClick();
         Wait.pass(0);
         assertNull(ground().pairing);
-        assertEquals(2, keys().getPreferenceCount());
+        assertEquals(3, keys().getPreferenceCount());
         assertTrue(file().getAll().isEmpty());
     }
 
@@ -170,7 +170,7 @@ public final class KeySettingsTest extends AppBench {
         handset.preferences().edit().putBoolean("ground_tls", true).commit();
         assertThrows(IllegalArgumentException.class, () -> ground());
         openSettings();
-        Preference shown = preference(R.string.key_certificate);
+        Preference shown = preference(R.string.key_certificates);
         shown.getOnPreferenceClickListener().onPreferenceClick(shown);
         assertEquals(Intent.ACTION_GET_CONTENT, shadowOf((Activity) handset.window.get())
                 .getNextStartedActivityForResult().intent.getAction());
@@ -180,10 +180,10 @@ public final class KeySettingsTest extends AppBench {
         String text = new String(Files.readAllBytes(
                 Paths.get(System.getProperty("vectors"), "tls.pem")), "US-ASCII");
         choose(text);
-        assertEquals("relay", ground().tls.name);
-        mustSay("relay", shown.getSummary().toString());
-        assertFalse(handset.application.getSharedPreferences("up_tls", Context.MODE_PRIVATE)
-                .getAll().toString().contains("BEGIN"));
+        mustSay("CN=relay", ground().tls.toString());
+        mustSay("CN=relay", shown.getSummary().toString());
+        assertFalse(file().getAll().toString().contains("BEGIN"));
+        assertEquals(3, keys().getPreferenceCount());
         shown.getOnPreferenceClickListener().onPreferenceClick(shown);
         ShadowAlertDialog.getLatestAlertDialog().getButton(AlertDialog.BUTTON_POSITIVE)
                 .performClick();
@@ -195,7 +195,7 @@ public final class KeySettingsTest extends AppBench {
         Uri file = Uri.parse("content://files/" + text.length());
         shadowOf(handset.application.getContentResolver()).registerInputStream(file,
                 new ByteArrayInputStream(text.getBytes("US-ASCII")));
-        settings.onActivityResult(CertificateSettings.FILE, Activity.RESULT_OK,
+        settings.onActivityResult(KeySettings.FILE, Activity.RESULT_OK,
                 new Intent().setData(file));
     }
 
@@ -203,7 +203,7 @@ public final class KeySettingsTest extends AppBench {
     @Config(sdk = 29)
     public void aScannerPairs() {
         openSettings();
-        Preference scan = keys().getPreference(1);
+        Preference scan = keys().getPreference(2);
         scan.getOnPreferenceClickListener().onPreferenceClick(scan);
         Intent wish = shadowOf((Activity) handset.window.get())
                 .getNextStartedActivityForResult().intent;

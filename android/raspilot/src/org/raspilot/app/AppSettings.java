@@ -7,7 +7,6 @@ import java.util.Locale;
 import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
-import org.raspilot.up.android.CertificateStore;
 import org.raspilot.up.android.PairingStore;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.providers.Mounting;
@@ -76,9 +75,9 @@ final class AppSettings {
         if (!preferences.getBoolean(context.getString(key), false)) {
             return null;
         }
-        TlsIdentity found = new CertificateStore(context).get();
+        TlsIdentity found = new PairingStore(context).certificates();
         if (found == null) {
-            throw new IllegalArgumentException(context.getString(R.string.certificate_missing));
+            throw new IllegalArgumentException(context.getString(R.string.certificates_missing));
         }
         return found;
     }

@@ -22,7 +22,6 @@ public final class SettingsFragment extends PreferenceFragment
 
     private final Map<String, SettingRule> rules = new LinkedHashMap<>();
     private KeySettings keys;
-    private CertificateSettings certificates;
 
     @Override
     public void onCreate(Bundle saved) {
@@ -42,7 +41,6 @@ public final class SettingsFragment extends PreferenceFragment
         rule(R.string.key_ground_port, SettingRule.PORT);
         rule(R.string.key_ground_aircraft, SettingRule.AIRCRAFT);
         keys = new KeySettings(this);
-        certificates = new CertificateSettings(this);
         showAll();
     }
 
@@ -50,8 +48,8 @@ public final class SettingsFragment extends PreferenceFragment
     public void onActivityResult(int request, int result, Intent data) {
         if (request == KeySettings.SCAN) {
             keys.onScanned(data);
-        } else if (request == CertificateSettings.FILE) {
-            certificates.onChosen(data);
+        } else if (request == KeySettings.FILE) {
+            keys.onChosen(data);
         }
     }
 

@@ -33,8 +33,6 @@ final class GroundLink implements UpSocketListener {
     private static final long KEY_INTERVAL_MS = 500;
     private static final int CONNECT_TIMEOUT_MS = 5000;
     private static final int HEARTBEAT_MS = 1000;
-    private static final int INITIAL_RETRY_MS = 500;
-    private static final int MAX_RETRY_MS = 2000;
 
     private final Loop loop;
     private final GroundSettings settings;
@@ -64,7 +62,6 @@ final class GroundLink implements UpSocketListener {
         facts.isTls = settings.tls != null;
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
-                .withRetryMs(INITIAL_RETRY_MS, MAX_RETRY_MS)
                 .withTls(settings.tls);
         socket = new UpSocket(loop,
                 new FixedEndpoint(new Endpoint(settings.host, settings.port, 0)), this,

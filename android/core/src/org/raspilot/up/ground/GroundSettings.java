@@ -10,8 +10,6 @@ import org.raspilot.up.wire.ProxyRole;
 public final class GroundSettings {
     /** The ground port of a Ground Station Proxy. */
     public static final int PROXY_PORT = 3004;
-    /** The port of an aircraft's own listener. */
-    public static final int DIRECT_PORT = 50002;
     /** The default aircraft of a proxy. */
     public static final String DEFAULT_AIRCRAFT = "default";
 

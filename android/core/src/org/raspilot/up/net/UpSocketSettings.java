@@ -20,7 +20,7 @@ public final class UpSocketSettings {
     /** The certificates of TLS; null: plain TCP. */
     public final TlsIdentity tls;
 
-    private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
+    UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
             int initialRetryMs, int maxRetryMs, TlsIdentity tls) {
         this.isRaw = isRaw;
         this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
@@ -57,18 +57,6 @@ public final class UpSocketSettings {
     public UpSocketSettings withHeartbeatMs(int periodMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, periodMs, stallLimitMs,
                 initialRetryMs, maxRetryMs, tls);
-    }
-
-    /** Returns these with the end of a connection that took nothing of what waits; 0: never. */
-    public UpSocketSettings withStallLimitMs(int limitMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs,
-                initialRetryMs, maxRetryMs, tls);
-    }
-
-    /** Returns these with waits between attempts that double from the first to the last. */
-    public UpSocketSettings withRetryMs(int firstMs, int lastMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, stallLimitMs,
-                firstMs, lastMs, tls);
     }
 
     /** Returns these with TLS alone, to a server that these certificates accept; null: plain. */

@@ -15,10 +15,11 @@ import java.security.cert.CertificateFactory;
 import java.security.cert.X509CRL;
 import java.security.cert.X509Certificate;
 import java.security.spec.PKCS8EncodedKeySpec;
+import java.text.SimpleDateFormat;
 import java.util.ArrayList;
 import java.util.Arrays;
-import java.util.Date;
 import java.util.List;
+import java.util.Locale;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import javax.net.ssl.KeyManagerFactory;
@@ -37,25 +38,22 @@ import javax.net.ssl.X509TrustManager;
 public final class TlsIdentity {
     private static final Pattern PART = Pattern.compile(
             "-----BEGIN ([A-Z0-9 ]+)-----([A-Za-z0-9+/=\\s]+)-----END \\1-----");
-    private static final Pattern COMMON_NAME = Pattern.compile("CN=([^,+]+)");
     private static final String DIGITS =
             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     private static final List<String> VERSIONS = Arrays.asList("TLSv1.2", "TLSv1.3");
     private static final char[] NO_PASSWORD = new char[0];
 
-    /** The name in the own certificate; empty: none is presented. */
-    public final String name;
-    private final Date notAfter;
+    private final String text;
     private final List<X509CRL> revoked = new ArrayList<>();
     private final KeyManagerFactory keys;
     private final X509TrustManager authorities;
 
-    private TlsIdentity(String text) throws GeneralSecurityException, IOException {
+    private TlsIdentity(String pem) throws GeneralSecurityException, IOException {
         final CertificateFactory factory = CertificateFactory.getInstance("X.509");
         final KeyStore trusted = emptyStore();
         final List<X509Certificate> own = new ArrayList<>();
         byte[] key = null;
-        final Matcher parts = PART.matcher(text);
+        final Matcher parts = PART.matcher(pem);
         while (parts.find()) {
             final InputStream part =
                     new ByteArrayInputStream(parts.group().getBytes(Charset.forName("US-ASCII")));
@@ -83,10 +81,10 @@ public final class TlsIdentity {
             presented.setKeyEntry("device", keyOf(own.get(0), key), NO_PASSWORD,
                     own.toArray(new Certificate[own.size()]));
         }
-        final Matcher found = COMMON_NAME.matcher(
-                own.isEmpty() ? "" : own.get(0).getSubjectX500Principal().getName());
-        name = found.find() ? found.group(1) : "";
-        notAfter = own.isEmpty() ? null : own.get(0).getNotAfter();
+        text = own.isEmpty() ? "no certificate"
+                : own.get(0).getSubjectX500Principal().getName() + " until "
+                        + new SimpleDateFormat("yyyy-MM-dd", Locale.ROOT)
+                                .format(own.get(0).getNotAfter());
         keys = KeyManagerFactory.getInstance(KeyManagerFactory.getDefaultAlgorithm());
         keys.init(presented, NO_PASSWORD);
         final TrustManagerFactory trust =
@@ -111,9 +109,10 @@ public final class TlsIdentity {
         }
     }
 
-    /** Returns when the own certificate expires; null: none is presented. */
-    public Date notAfter() {
-        return notAfter == null ? null : new Date(notAfter.getTime());
+    /** Returns the subject of the own certificate and its last day. */
+    @Override
+    public String toString() {
+        return text;
     }
 
     /** Returns the judge of the certificate of the server that is called so. */

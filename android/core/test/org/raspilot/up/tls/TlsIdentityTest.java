@@ -1,8 +1,8 @@
 package org.raspilot.up.tls;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertThrows;
+import static org.junit.Assert.assertTrue;
 
 import java.security.cert.CertificateParsingException;
 import java.util.Arrays;
@@ -39,11 +39,8 @@ public final class TlsIdentityTest {
     public void thePartsOfAFileInAnyOrder() throws Exception {
         final String[] parts = TlsConnectionTest.text().split("(?=-----BEGIN )");
         final TlsIdentity found = TlsIdentity.parse("# mine\r\n" + parts[2] + parts[1] + parts[0]);
-        assertEquals("relay", found.name);
-        assertEquals(1, found.notAfter().compareTo(new java.util.Date()));
-        final TlsIdentity ca = TlsIdentity.parse(parts[0]);
-        assertEquals("", ca.name);
-        assertNull(ca.notAfter());
+        assertTrue(found.toString(), found.toString().startsWith("CN=relay until 212"));
+        assertEquals("no certificate", TlsIdentity.parse(parts[0]).toString());
     }
 
     @Test

@@ -97,12 +97,13 @@ public final class SpawnService extends IntentService {
         final RunnerClient client;
         try {
             String aircraft = intent.getStringExtra(AIRCRAFT);
+            PairingStore keys = new PairingStore(this);
             // Secrets do not travel in an intent.
             client = new RunnerClient(loop, intent.getStringExtra(HOST),
                     intent.getIntExtra(PORT, 0), intent.getBooleanExtra(IS_TLS, false)
-                            ? new CertificateStore(this).get() : null,
+                            ? keys.certificates() : null,
                     new RunnerRequest(aircraft, intent.getStringExtra(PROFILE),
-                            new PairingStore(this).get(aircraft)));
+                            keys.get(aircraft)));
         } catch (IllegalArgumentException wrong) {
             results.add(SpawnResult.refused(wrong.getMessage()));
             return;
