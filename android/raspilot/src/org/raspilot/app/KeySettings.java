@@ -88,6 +88,9 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         try {
             InputStream file =
                     fragment.getActivity().getContentResolver().openInputStream(result.getData());
+            if (file == null) {
+                throw new IOException("the other application has ended");
+            }
             try {
                 for (int read = 0; read >= 0 && size < MAX_BYTES;
                         read = file.read(bytes, size, MAX_BYTES - size)) {
@@ -99,7 +102,7 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
             store.putCertificates(new String(bytes, 0, size, "US-ASCII"));
         } catch (IllegalArgumentException wrong) {
             tell(wrong.getMessage());
-        } catch (IOException | NullPointerException | SecurityException unreadable) {
+        } catch (IOException | SecurityException unreadable) {
             // Another application supplies the file.
             tell(text(R.string.certificates_unread));
         }

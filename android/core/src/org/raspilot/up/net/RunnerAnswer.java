@@ -13,9 +13,6 @@ public final class RunnerAnswer {
     public final String message;
     /** A warning about the running instance, or null. */
     public final String error;
-    public final boolean isSpawned;
-    /** The instance's name; null: absent. */
-    public final String instance;
     public final Endpoint endpoint;
     /** The proxy's host for grounds of this aircraft; null: absent. */
     public final String proxyHost;
@@ -26,8 +23,6 @@ public final class RunnerAnswer {
         this.endpoint = place;
         message = text(answer, "message");
         error = text(answer, "error");
-        isSpawned = Boolean.TRUE.equals(answer.get("spawned"));
-        instance = text(answer, "instance");
         proxyGroundPort = proxy == null ? 0 : port(proxy, "ground");
         proxyHost = proxyGroundPort == 0 ? null : text(proxy, "host");
     }

@@ -63,8 +63,8 @@ final class ServerTrust implements X509TrustManager {
     private void check(X509Certificate[] chain, String type) throws TlsException {
         final X509Certificate server = chain[0];
         try {
-            if (server.getExtendedKeyUsage() != null
-                    && !server.getExtendedKeyUsage().contains(FOR_SERVERS)) {
+            final List<String> purposes = server.getExtendedKeyUsage();
+            if (purposes != null && !purposes.contains(FOR_SERVERS)) {
                 throw new TlsException("tls_wrong_purpose", "its certificate is not a server's");
             }
             authorities.checkServerTrusted(chain, type);

@@ -1,7 +1,6 @@
 package org.raspilot.up.net;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
@@ -22,8 +21,6 @@ public final class RunnerAnswerTest {
         assertEquals(new Endpoint("runner.example", 50001, 50000), answer.endpoint);
         assertEquals("Raspilot spawned", answer.message);
         assertNull(answer.error);
-        assertTrue(answer.isSpawned);
-        assertEquals("glider-1", answer.instance);
         assertEquals("proxy.example", answer.proxyHost);
         assertEquals(3004, answer.proxyGroundPort);
     }
@@ -34,7 +31,6 @@ public final class RunnerAnswerTest {
                 + " \"error\": \"another configuration\", \"proxy\": null,"
                 + " \"ports\": {\"general\": 1, \"orientation\": 65535}}", "h");
         assertEquals("another configuration", answer.error);
-        assertFalse(answer.isSpawned);
         assertNull(answer.message);
         assertNull(answer.proxyHost);
         assertEquals(0, answer.proxyGroundPort);

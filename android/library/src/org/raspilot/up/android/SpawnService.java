@@ -62,7 +62,7 @@ public final class SpawnService extends IntentService {
 
     /** Returns the result in a message to the messenger. */
     public static SpawnResult result(Message message) {
-        return SpawnResult.of(message.getData());
+        return (SpawnResult) message.obj;
     }
 
     @Override
@@ -82,12 +82,12 @@ public final class SpawnService extends IntentService {
             loop.start();
             loop.post(() -> send(intent, loop, results));
             SpawnResult result = results.poll(MAX_S, TimeUnit.SECONDS);
-            return result == null ? SpawnResult.refused("the runner does not answer") : result;
+            return result == null ? new SpawnResult(null, "the runner does not answer") : result;
         } catch (IOException failure) {
-            return SpawnResult.refused(failure.getMessage());
+            return new SpawnResult(null, failure.getMessage());
         } catch (InterruptedException interruption) {
             Thread.currentThread().interrupt();
-            return SpawnResult.refused("the request was interrupted");
+            return new SpawnResult(null, "the request was interrupted");
         } finally {
             loop.stop();
         }
@@ -105,32 +105,28 @@ public final class SpawnService extends IntentService {
                     new RunnerRequest(aircraft, intent.getStringExtra(PROFILE),
                             keys.get(aircraft)));
         } catch (IllegalArgumentException wrong) {
-            results.add(SpawnResult.refused(wrong.getMessage()));
+            results.add(new SpawnResult(null, wrong.getMessage()));
             return;
         }
         client.find(new DiscoveryListener() {
             @Override
             public void onFound(Endpoint place) {
-                results.add(result(client.lastAnswer(), place));
+                RunnerAnswer answer = client.lastAnswer();
+                results.add(new SpawnResult(answer, answer.error == null ? answer.message
+                        : answer.message + ": " + answer.error));
             }
 
             @Override
             public void onNotFound(String code, String reason) {
-                results.add(SpawnResult.refused(reason + " (" + code + ")"));
+                results.add(new SpawnResult(null, reason + " (" + code + ")"));
             }
         });
     }
 
-    private static SpawnResult result(RunnerAnswer answer, Endpoint place) {
-        String sentence = answer.error == null ? answer.message
-                : answer.message + ": " + answer.error;
-        return SpawnResult.running(answer.isSpawned, sentence, place.toString(),
-                answer.proxyHost, answer.proxyGroundPort);
-    }
-
     private static void reply(Messenger answer, SpawnResult result) {
         Message message = Message.obtain();
-        message.setData(result.toBundle());
+        // In this process: the object itself arrives.
+        message.obj = result;
         try {
             answer.send(message);
         } catch (RemoteException gone) {
