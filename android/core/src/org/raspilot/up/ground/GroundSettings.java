@@ -10,8 +10,6 @@ import org.raspilot.up.wire.ProxyRole;
 public final class GroundSettings {
     /** The ground port of a Ground Station Proxy. */
     public static final int PROXY_PORT = 3004;
-    /** The default aircraft of a proxy. */
-    public static final String DEFAULT_AIRCRAFT = "default";
 
     /** The name or address of the other side. */
     public final String host;

@@ -24,8 +24,6 @@ public final class DiscoveryClient implements EndpointDiscovery {
     private final int port;
     private final int generalPort;
     private final int orientationPort;
-    private long wrongAnswers;
-    private long foreignAnswers;
 
     /**
      * Creates a client.
@@ -49,16 +47,6 @@ public final class DiscoveryClient implements EndpointDiscovery {
         final Question question = new Question(listener);
         question.begin();
         return question;
-    }
-
-    /** Returns how many answers were not understood, or came from another port. */
-    public long wrongAnswers() {
-        return wrongAnswers;
-    }
-
-    /** Returns how many answers named another address than the sender's, or a public one. */
-    public long foreignAnswers() {
-        return foreignAnswers;
     }
 
     private final class Question implements Cancellable, UdpListener {
@@ -107,11 +95,9 @@ public final class DiscoveryClient implements EndpointDiscovery {
             final String found = sourcePort == port
                     ? DiscoveryAnswer.read(bytes, length, host) : null;
             if (found == null) {
-                wrongAnswers++;
                 return;
             }
             if (!DiscoveryAnswer.isUsable(found, host)) {
-                foreignAnswers++;
                 refused = "; refused " + found + " from " + host
                         + ": not the sender's own address in a private network";
                 return;

@@ -31,11 +31,9 @@ public final class UpSocket {
     private Attempt current;
     private Cancellable retry;
     private long connects;
-    private long failedAttempts;
     private long lost;
     private long dropped;
     private long received;
-    private long bytesIn;
 
     /**
      * Creates a socket that is not started.
@@ -103,8 +101,6 @@ public final class UpSocket {
                 // Not earlier: the wait must grow for a peer that always hangs up immediately.
                 backOff.reset();
             }
-        } else {
-            failedAttempts++;
         }
         final boolean wasConnected = end();
         retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
@@ -150,8 +146,8 @@ public final class UpSocket {
     }
 
     public UpSocketCounters counters() {
-        return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
-                queue.replaced(), received, lines.tooLong(), bytesIn, queue.bytesOut());
+        return new UpSocketCounters(connects, lost, queue.sent(), dropped,
+                queue.replaced(), received, lines.tooLong(), queue.bytesOut());
     }
 
     private void attempt() {
@@ -271,7 +267,6 @@ public final class UpSocket {
 
         @Override
         public void onBytes(byte[] bytes, int length) {
-            bytesIn += length;
             if (settings.isRaw) {
                 receive(bytes, length);
             } else {

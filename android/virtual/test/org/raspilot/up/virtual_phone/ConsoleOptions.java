@@ -27,7 +27,7 @@ final class ConsoleOptions {
     /** Returns the options; raises OptionException with a sentence for a wrong one. */
     static ConsoleOptions read(String[] arguments) throws OptionException {
         String[] place = {"127.0.0.1", Integer.toString(GroundSettings.PROXY_PORT)};
-        String aircraft = GroundSettings.DEFAULT_AIRCRAFT;
+        String aircraft = "default";
         ProxyRole seat = ProxyRole.COMMAND;
         boolean isDirect = false;
         Pairing pairing = null;
