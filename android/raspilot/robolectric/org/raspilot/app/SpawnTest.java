@@ -76,7 +76,7 @@ public final class SpawnTest extends AppBench {
         ask();
         mustSay("\"protected\"", runner.heard().get(0));
         assertFalse(handset.startWished());
-        mustSay("(unprotected)", text(R.id.run_link));
+        mustSay(": unprotected", text(R.id.run_link));
     }
 
     @Test

@@ -11,7 +11,6 @@ import org.raspilot.up.security.EnvelopeException;
 import org.raspilot.up.security.RunnerSession;
 import org.raspilot.up.tls.TlsConnection;
 import org.raspilot.up.tls.TlsIdentity;
-import org.raspilot.up.wire.SafeText;
 
 /**
  * Requests an instance from a runner and finds its address (protocols 8). With a key only an
@@ -151,7 +150,7 @@ public final class RunnerClient implements EndpointDiscovery {
                 return;
             } catch (EnvelopeException refusal) {
                 fail(refusal.code, "the runner gives no protected answer to the key "
-                        + request.pairing + ": " + SafeText.of(refusal.code, 40));
+                        + request.pairing + ": " + refusal.code);
                 return;
             }
             lastAnswer = read;

@@ -92,7 +92,8 @@ public final class RunnerSession {
         }
         final Object code = ((Map<?, ?>) said).get("code");
         if (code instanceof String) {
-            throw new EnvelopeException((String) code);
+            throw new EnvelopeException(
+                    ((String) code).matches("[a-z_]{1,40}") ? (String) code : "malformed");
         }
         final Object body = ((Map<?, ?>) said).get("body");
         final String digits = body instanceof String ? (String) body : "";

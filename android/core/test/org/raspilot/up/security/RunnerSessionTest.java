@@ -60,6 +60,7 @@ public final class RunnerSessionTest {
         refused("malformed", line("result"), line -> session.request(line, REQUEST));
         refused("protection_off", "{\"running\": false, \"code\": \"protection_off\"}",
                 line -> session.request(line, REQUEST));
+        refused("malformed", "{\"code\": \"<b>Words</b>\"}", line -> session.request(line, REQUEST));
         session.request(line("answer"), REQUEST);
         refused("malformed", line("answer"), line -> session.result(line));
         refused("forged", line("request"), line -> session.result(line));

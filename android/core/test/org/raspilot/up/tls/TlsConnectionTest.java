@@ -122,6 +122,12 @@ public final class TlsConnectionTest implements TcpListener {
     }
 
     @Test
+    public void theVersionOfAndroidFiveToNineIsSpoken() throws Exception {
+        server.speak("TLSv1.2");
+        dataTravelsBothWaysAfterTheHandshake();
+    }
+
+    @Test
     public void whatTakesLongHoldsTheLoopNever() throws Exception {
         peer.accept();
         loop.advance(0);

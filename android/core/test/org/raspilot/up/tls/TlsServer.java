@@ -22,6 +22,11 @@ final class TlsServer {
         engine.setUseClientMode(false);
     }
 
+    /** Speaks this version alone. */
+    void speak(String version) {
+        engine.setEnabledProtocols(new String[] {version});
+    }
+
     boolean isInboundDone() {
         return engine.isInboundDone();
     }

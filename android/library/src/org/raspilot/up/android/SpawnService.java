@@ -118,7 +118,7 @@ public final class SpawnService extends IntentService {
 
             @Override
             public void onNotFound(String code, String reason) {
-                results.add(new SpawnResult(null, reason + " (" + code + ")"));
+                results.add(new SpawnResult(null, reason));
             }
         });
     }
