@@ -45,7 +45,7 @@ $(ROBO_JAR): $(ROBO_TESTS) $(BACKPORTED) $(ROBO_AAR_JARS) $(BUILD)/ROBO_TESTS.li
 
 # $(call robolectric,classes,options)
 robolectric = $(JVM) -ea -Xmx1500m -Drobolectric.offline=true -Drobolectric.dependency.dir=$(abspath $(JARS)) \
-	-Drobolectric.logging.enabled=false $(2) \
+	-Drobolectric.logging.enabled=false -Dvectors=$(VECTORS) $(2) \
 	-cp $(ROBO_JAR):$(ROBO_SET):$(ROBO_PATH) org.junit.runner.JUnitCore $(1)
 robo_ready := $(ROBO_JAR) $(RESOURCES) $(ROBO_SET)/com/android/tools/test_config.properties \
 	$(JARS)/.platforms

@@ -1,6 +1,7 @@
 """A Black Box flight of the Java phone: the runner spawns Raspilot, the Java ground sees it."""
 
 import time
+from ast import literal_eval
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,9 @@ from tests.android.phone_program import FIX, PhoneProgram
 from tests.android.real_daemon import GUARDS
 from tests.proxy.program import Program
 from tests.runner.runners import RunnerProcess
+from tests.support.certificates import Certificates
+from up.config.keys_file import add_key
+from up.protocols.pairing import Pairing
 
 AIRCRAFT = "glider-9"
 ROOT = Path(__file__).parents[2]
@@ -27,9 +31,19 @@ def proxy(tmp_path):
 
 
 @pytest.fixture
-def runner(short_path, proxy):
+def own(tmp_path):
+    made = Certificates(tmp_path)
+    made.server("runner")
+    made.client("phone")
+    return made
+
+
+@pytest.fixture
+def runner(short_path, proxy, own):
     made = RunnerProcess(
-        short_path / "runner", **{"application root": str(ROOT), "script path": "main.py"}
+        short_path / "runner",
+        **{"application root": str(ROOT), "script path": "main.py", "security": "require"},
+        tls=str(own.authority.folder / "runner"),
     )
     made.write("blackbox/config.yml", {"mode": "black box"})
     server = {"url": "127.0.0.1", "port": proxy.airborne_port}
@@ -40,19 +54,24 @@ def runner(short_path, proxy):
     made.clean()
 
 
-def test_a_black_box_flight_and_the_death_of_its_phone(runner, proxy):
+def test_a_black_box_flight_and_the_death_of_its_phone(runner, proxy, own):
+    key_id, key = add_key(runner.config_folder, "phone", "pilot", "", AIRCRAFT)
     place = ("--runner", f"127.0.0.1:{runner.port}", "--aircraft", AIRCRAFT)
+    place += ("--tls", own.authority.folder / "phone")
+    with PhoneProgram(*place) as unpaired:
+        unpaired.until(lambda: unpaired.all("notice"), "the refusal")
+        assert {each["code"] for each in unpaired.all("notice")} == {"unprotected"}
+    place += ("--pairing", Pairing(AIRCRAFT, key_id, key.secret, key.role, key.name).encode())
     ground = ("--proxy", f"127.0.0.1:{proxy.ground_port}", "--aircraft", AIRCRAFT)
     with (
         PhoneProgram(*place, "--orientation", "tcp") as phone,
         ConsoleProgram(*ground, values=VALUES) as console,
     ):
         there = phone.connected()
-        status = runner.status(AIRCRAFT)
-        assert status["running"] is True
-        assert (there["general"], there["orientation"]) == (
-            status["ports"]["general"], status["ports"]["orientation"],
-        )  # fmt: skip
+        asked = runner.logs("request", device="phone")
+        assert (asked["action"], asked["aircraft"]) == ("spawn", AIRCRAFT)
+        ports = {name: there[name] for name in ("general", "orientation")}
+        assert literal_eval(runner.logs("running")["ports"]) == ports
         console.sees("the flight", mode="black box", source__orientation="android")
         console.sees("the location", location__latitude=FIX["latitude"], android__batteryLevel=87)
         assert console.at("flight_controller") is None

@@ -26,7 +26,7 @@ def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
     place = (*daemon.place_at("192.0.2.1"), "--discover", f"127.0.0.1:{daemon.ports.discovery}")
     with PhoneProgram(*place) as phone:
         phone.until(lambda: phone.all("notice"), "a notice without an answer")
-        assert phone.all("notice")[0]["code"] == "link_waiting"
+        assert phone.all("notice")[0]["code"] == "not_found"
         ground = daemon.start()
         assert phone.connected() == {
             "event": "connected", "host": "127.0.0.1",

@@ -12,9 +12,13 @@ import android.app.AlertDialog;
 import android.content.Context;
 import android.content.Intent;
 import android.content.SharedPreferences;
+import android.net.Uri;
 import android.os.Build;
 import android.preference.Preference;
 import android.preference.PreferenceCategory;
+import java.io.ByteArrayInputStream;
+import java.nio.file.Files;
+import java.nio.file.Paths;
 import java.security.Security;
 import org.junit.After;
 import org.junit.Before;
@@ -29,7 +33,7 @@ import org.robolectric.shadows.ShadowToast;
 public final class KeySettingsTest extends AppBench {
     private static final String SECRET =
             "000102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f";
-    private static final String TEXT = "upkey:1:glider-1:0001020304050607:" + SECRET
+    static final String TEXT = "upkey:1:glider-1:0001020304050607:" + SECRET
             + ":pilot:tablet";
 
     private SettingsFragment settings;
@@ -86,7 +90,7 @@ public final class KeySettingsTest extends AppBench {
         assertFalse(handset.preferences().getAll().toString().contains(SECRET));
         boolean isPlain = file().getAll().toString().contains(SECRET);
         assertEquals(Build.VERSION.SDK_INT < 23, isPlain);
-        Preference shown = keys().getPreference(2);
+        Preference shown = keys().getPreference(3);
         assertEquals("glider-1", shown.getTitle());
         mustSay("tablet (pilot)", shown.getSummary().toString());
     }
@@ -98,7 +102,7 @@ public final class KeySettingsTest extends AppBench {
         paste(TEXT);
         paste(TEXT.replace("glider-1", "glider-2"));
         paste(TEXT.replace(":pilot:", ":observer:"));
-        assertEquals(4, keys().getPreferenceCount());
+        assertEquals(5, keys().getPreferenceCount());
         assertEquals("observer", new PairingStore(handset.application).get("glider-1").role);
         assertEquals("pilot", new PairingStore(handset.application).get("glider-2").role);
     }
@@ -111,11 +115,11 @@ public final class KeySettingsTest extends AppBench {
         assertEquals(handset.application.getString(R.string.pairing_invalid),
                 ShadowToast.getTextOfLatestToast());
         shadowOf(handset.application).checkActivities(true);
-        Preference scan = keys().getPreference(1);
+        Preference scan = keys().getPreference(2);
         scan.getOnPreferenceClickListener().onPreferenceClick(scan);
         assertEquals(handset.application.getString(R.string.scan_none),
                 ShadowToast.getTextOfLatestToast());
-        assertEquals(2, keys().getPreferenceCount());
+        assertEquals(3, keys().getPreferenceCount());
         assertNull(ground().pairing);
     }
 
@@ -124,14 +128,14 @@ public final class KeySettingsTest extends AppBench {
     public void aKeyIsForgottenAfterAQuestion() {
         openSettings();
         paste(TEXT);
-        Preference shown = keys().getPreference(2);
+        Preference shown = keys().getPreference(3);
         shown.getOnPreferenceClickListener().onPreferenceClick(shown);
         assertEquals("tablet", ground().pairing.name);
         ShadowAlertDialog.getLatestAlertDialog().getButton(AlertDialog.BUTTON_POSITIVE)
                 .performClick();
         Wait.pass(0);
         assertNull(ground().pairing);
-        assertEquals(2, keys().getPreferenceCount());
+        assertEquals(3, keys().getPreferenceCount());
         assertTrue(file().getAll().isEmpty());
     }
 
@@ -162,9 +166,44 @@ public final class KeySettingsTest extends AppBench {
 
     @Test
     @Config(sdk = 29)
+    public void tlsNeedsTheCertificatesOfAFileAndIsNeverPlain() throws Exception {
+        handset.preferences().edit().putBoolean("ground_tls", true).commit();
+        assertThrows(IllegalArgumentException.class, () -> ground());
+        openSettings();
+        Preference shown = preference(R.string.key_certificates);
+        shown.getOnPreferenceClickListener().onPreferenceClick(shown);
+        assertEquals(Intent.ACTION_GET_CONTENT, shadowOf((Activity) handset.window.get())
+                .getNextStartedActivityForResult().intent.getAction());
+        choose("-----BEGIN NOTHING-----");
+        mustSay("not used", ShadowToast.getTextOfLatestToast());
+        assertThrows(IllegalArgumentException.class, () -> ground());
+        String text = new String(Files.readAllBytes(
+                Paths.get(System.getProperty("vectors"), "tls.pem")), "US-ASCII");
+        choose(text);
+        mustSay("CN=relay", ground().tls.toString());
+        mustSay("CN=relay", shown.getSummary().toString());
+        assertFalse(file().getAll().toString().contains("BEGIN"));
+        assertEquals(3, keys().getPreferenceCount());
+        shown.getOnPreferenceClickListener().onPreferenceClick(shown);
+        ShadowAlertDialog.getLatestAlertDialog().getButton(AlertDialog.BUTTON_POSITIVE)
+                .performClick();
+        Wait.pass(0);
+        assertThrows(IllegalArgumentException.class, () -> ground());
+    }
+
+    private void choose(String text) throws Exception {
+        Uri file = Uri.parse("content://files/" + text.length());
+        shadowOf(handset.application.getContentResolver()).registerInputStream(file,
+                new ByteArrayInputStream(text.getBytes("US-ASCII")));
+        settings.onActivityResult(KeySettings.FILE, Activity.RESULT_OK,
+                new Intent().setData(file));
+    }
+
+    @Test
+    @Config(sdk = 29)
     public void aScannerPairs() {
         openSettings();
-        Preference scan = keys().getPreference(1);
+        Preference scan = keys().getPreference(2);
         scan.getOnPreferenceClickListener().onPreferenceClick(scan);
         Intent wish = shadowOf((Activity) handset.window.get())
                 .getNextStartedActivityForResult().intent;

@@ -10,8 +10,11 @@ import java.io.IOException;
 import org.junit.After;
 import org.junit.Before;
 import org.junit.Test;
+import org.raspilot.up.android.PairingStore;
 import org.raspilot.up.android.SpawnService;
+import org.raspilot.up.security.Pairing;
 import org.robolectric.Robolectric;
+import org.robolectric.annotation.Config;
 
 /** Black Box Mode: start first sends a request to the runner, by the intent service. */
 public final class SpawnTest extends AppBench {
@@ -49,7 +52,6 @@ public final class SpawnTest extends AppBench {
         Wait.until("the answer",
                 () -> !RaspilotApplication.of(handset.application).spawning().isAsking());
         assertEquals(1, runner.heard().size());
-        mustSay("\"aircraft\": \"glider-5\"", runner.heard().get(0));
     }
 
     @Test
@@ -59,8 +61,22 @@ public final class SpawnTest extends AppBench {
                 + "\"pid\": null, \"instance\": \"glider-5\", \"ports\": null, \"proxy\": null, "
                 + "\"myAddress\": \"127.0.0.1\"}";
         ask();
+        mustSay("\"aircraft\": \"glider-5\"", runner.heard().get(0));
         assertFalse(handset.startWished());
         mustSay("Unknown profile", text(R.id.run_link));
+    }
+
+    @Test
+    @Config(sdk = 16)
+    public void withTheAircraftsKeyTheRequestIsSignedAndAPlainAnswerStartsNothing()
+            throws Exception {
+        new PairingStore(handset.application).put(
+                Pairing.parse(KeySettingsTest.TEXT.replace("glider-1", "glider-5")));
+        answer = "{\"running\": true, \"ports\": {\"general\": 1, \"orientation\": 1}}";
+        ask();
+        mustSay("\"protected\"", runner.heard().get(0));
+        assertFalse(handset.startWished());
+        mustSay(": unprotected", text(R.id.run_link));
     }
 
     @Test

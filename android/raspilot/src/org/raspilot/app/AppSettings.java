@@ -11,6 +11,7 @@ import org.raspilot.up.android.PairingStore;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Side;
+import org.raspilot.up.tls.TlsIdentity;
 import org.raspilot.up.wire.ProxyRole;
 
 /**
@@ -28,6 +29,9 @@ final class AppSettings {
 
     /** Returns all of the airborne side. */
     AirborneSettings airborne() {
+        String runner = text(R.string.key_runner_host, R.string.default_runner_host);
+        String aircraft = text(R.string.key_aircraft, R.string.default_aircraft);
+        boolean isByRunner = mode() == AirborneMode.BLACK_BOX && !runner.isEmpty();
         return new AirborneSettings.Builder()
                 .mode(mode())
                 .host(text(R.string.key_host, R.string.default_host))
@@ -35,9 +39,11 @@ final class AppSettings {
                 .orientationPort(port(R.string.key_orientation_port,
                         R.string.default_orientation_port))
                 .discoveryPort(port(R.string.key_discovery_port, R.string.default_discovery_port))
-                .runnerHost(text(R.string.key_runner_host, R.string.default_runner_host))
+                .runnerHost(runner)
+                .runnerTls(isByRunner ? tls(R.string.key_runner_tls) : null)
+                .pairing(isByRunner ? new PairingStore(context).get(aircraft) : null)
                 .runnerPort(port(R.string.key_runner_port, R.string.default_runner_port))
-                .aircraft(text(R.string.key_aircraft, R.string.default_aircraft))
+                .aircraft(aircraft)
                 .profile(text(R.string.key_profile, R.string.default_profile))
                 .orientation(transport())
                 .redundantOrientation(preferences.getBoolean(
@@ -60,7 +66,20 @@ final class AppSettings {
                 text(R.string.key_ground_host, R.string.default_ground_host),
                 port(R.string.key_ground_port, R.string.default_ground_port), aircraft,
                 isListening ? ProxyRole.LISTEN : ProxyRole.COMMAND, isDirect)
-                .withPairing(new PairingStore(context).get(aircraft));
+                .withPairing(new PairingStore(context).get(aircraft))
+                .withTls(tls(R.string.key_ground_tls));
+    }
+
+    /** Returns this phone's certificates if the setting wants TLS: no link becomes plain. */
+    private TlsIdentity tls(int key) {
+        if (!preferences.getBoolean(context.getString(key), false)) {
+            return null;
+        }
+        TlsIdentity found = new PairingStore(context).certificates();
+        if (found == null) {
+            throw new IllegalArgumentException(context.getString(R.string.certificates_missing));
+        }
+        return found;
     }
 
     /** Returns who the phone speaks to. */

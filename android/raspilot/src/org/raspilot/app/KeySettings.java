@@ -8,30 +8,42 @@ import android.preference.EditTextPreference;
 import android.preference.Preference;
 import android.preference.PreferenceCategory;
 import android.widget.Toast;
+import java.io.IOException;
+import java.io.InputStream;
 import org.raspilot.up.android.PairingStore;
 import org.raspilot.up.security.Pairing;
+import org.raspilot.up.tls.TlsIdentity;
 
-/** The keys on the settings screen: pair by a text or a scanner application, list, forget. */
+/**
+ * The keys on the settings screen: pair by a text or a scanner application, list, forget; choose
+ * the file of the certificates for TLS.
+ */
 final class KeySettings implements Preference.OnPreferenceChangeListener,
         Preference.OnPreferenceClickListener {
     /** The request code of the scanner. */
     static final int SCAN = 1;
+    /** The request code of the choice of a file. */
+    static final int FILE = 2;
 
     // The scanner applications' common interface, by ZXing.
     private static final String SCANNER = "com.google.zxing.client.android.SCAN";
     private static final String SCANNED = "SCAN_RESULT";
-    /** Position of the keys, behind the two preferences that pair. */
-    private static final int FIRST_KEY = 2;
+    /** Position of the keys, behind the preferences that are always there. */
+    private static final int FIRST_KEY = 3;
+    private static final int MAX_BYTES = 65536;
 
     private final SettingsFragment fragment;
     private final PairingStore store;
     private final PreferenceCategory list;
+    private final Preference certificates;
 
     KeySettings(SettingsFragment fragment) {
         this.fragment = fragment;
         store = new PairingStore(fragment.getActivity());
         list = (PreferenceCategory) fragment.findPreference(text(R.string.key_keys));
         fragment.findPreference(text(R.string.key_pairing)).setOnPreferenceChangeListener(this);
+        certificates = fragment.findPreference(text(R.string.key_certificates));
+        certificates.setOnPreferenceClickListener(clicked -> onCertificates());
         Preference scan = new Preference(fragment.getActivity());
         scan.setTitle(R.string.setting_scan);
         scan.setSummary(R.string.setting_scan_hint);
@@ -51,11 +63,50 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
     @Override
     public boolean onPreferenceClick(Preference clicked) {
         String aircraft = String.valueOf(clicked.getTitle());
-        new AlertDialog.Builder(fragment.getActivity())
-                .setMessage(text(R.string.forget_question, aircraft))
-                .setPositiveButton(R.string.forget, (dialog, which) -> forget(aircraft))
-                .setNegativeButton(android.R.string.cancel, null).show();
+        ask(text(R.string.forget_question, aircraft), () -> store.forget(aircraft));
         return true;
+    }
+
+    /** Chooses the file of certificates, or asks whether to forget those that are kept. */
+    private boolean onCertificates() {
+        if (text(R.string.certificates_none).contentEquals(certificates.getSummary())) {
+            start(new Intent(Intent.ACTION_GET_CONTENT).setType("*/*")
+                    .addCategory(Intent.CATEGORY_OPENABLE), FILE, R.string.certificates_no_files);
+        } else {
+            ask(text(R.string.certificates_forget), () -> store.forgetCertificates());
+        }
+        return true;
+    }
+
+    /** Takes the file that was chosen; null: none. */
+    void onChosen(Intent result) {
+        if (result == null || result.getData() == null) {
+            return;
+        }
+        byte[] bytes = new byte[MAX_BYTES];
+        int size = 0;
+        try {
+            InputStream file =
+                    fragment.getActivity().getContentResolver().openInputStream(result.getData());
+            if (file == null) {
+                throw new IOException("the other application has ended");
+            }
+            try {
+                for (int read = 0; read >= 0 && size < MAX_BYTES;
+                        read = file.read(bytes, size, MAX_BYTES - size)) {
+                    size += read;
+                }
+            } finally {
+                file.close();
+            }
+            store.putCertificates(new String(bytes, 0, size, "US-ASCII"));
+        } catch (IllegalArgumentException wrong) {
+            tell(wrong.getMessage());
+        } catch (IOException | SecurityException unreadable) {
+            // Another application supplies the file.
+            tell(text(R.string.certificates_unread));
+        }
+        changed();
     }
 
     /** Takes what a scanner returned; null: nothing. */
@@ -67,13 +118,26 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
     }
 
     private boolean scan() {
-        try {
-            fragment.startActivityForResult(
-                    new Intent(SCANNER).putExtra("SCAN_MODE", "QR_CODE_MODE"), SCAN);
-        } catch (ActivityNotFoundException none) {
-            tell(text(R.string.scan_none));
-        }
+        start(new Intent(SCANNER).putExtra("SCAN_MODE", "QR_CODE_MODE"), SCAN, R.string.scan_none);
         return true;
+    }
+
+    private void start(Intent wish, int request, int without) {
+        try {
+            fragment.startActivityForResult(wish, request);
+        } catch (ActivityNotFoundException none) {
+            tell(text(without));
+        }
+    }
+
+    private void ask(String question, Runnable forget) {
+        new AlertDialog.Builder(fragment.getActivity())
+                .setMessage(question)
+                .setPositiveButton(R.string.forget, (dialog, which) -> {
+                    forget.run();
+                    changed();
+                })
+                .setNegativeButton(android.R.string.cancel, null).show();
     }
 
     private void pair(String pasted) {
@@ -91,11 +155,6 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         tell(text(R.string.pairing_done, pairing.aircraft, pairing));
         ((EditTextPreference) fragment.findPreference(text(R.string.key_ground_aircraft)))
                 .setText(pairing.aircraft);
-        changed();
-    }
-
-    private void forget(String aircraft) {
-        store.forget(aircraft);
         changed();
     }
 
@@ -117,6 +176,16 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
             key.setSummary(summary(aircraft));
             key.setOnPreferenceClickListener(this);
             list.addPreference(key);
+        }
+        certificates.setSummary(certificates());
+    }
+
+    private String certificates() {
+        try {
+            TlsIdentity found = store.certificates();
+            return found == null ? text(R.string.certificates_none) : found.toString();
+        } catch (IllegalArgumentException unreadable) {
+            return unreadable.getMessage();
         }
     }
 

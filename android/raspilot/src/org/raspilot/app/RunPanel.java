@@ -72,7 +72,7 @@ final class RunPanel {
     private String where(AirborneSettings settings) {
         if (settings.isByRunner()) {
             return context.getString(R.string.where_runner, settings.runnerHost,
-                    settings.runnerPort, settings.aircraft);
+                    settings.runnerPort, settings.aircraft, settings.runnerSecurityText());
         }
         if (settings.host.isEmpty()) {
             return context.getString(R.string.where_discovery, settings.discoveryPort);

@@ -48,6 +48,8 @@ public final class SettingsFragment extends PreferenceFragment
     public void onActivityResult(int request, int result, Intent data) {
         if (request == KeySettings.SCAN) {
             keys.onScanned(data);
+        } else if (request == KeySettings.FILE) {
+            keys.onChosen(data);
         }
     }
 

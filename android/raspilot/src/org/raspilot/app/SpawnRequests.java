@@ -8,6 +8,7 @@ import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.android.SpawnResult;
 import org.raspilot.up.android.SpawnService;
+import org.raspilot.up.net.RunnerAnswer;
 
 /**
  * Has an instance spawned and starts the service that connects to it; every answer is a line of
@@ -51,7 +52,7 @@ final class SpawnRequests {
             return;
         }
         SpawnService.request(application, settings.runnerHost, settings.runnerPort,
-                settings.aircraft, settings.profile, answers);
+                settings.runnerTls != null, settings.aircraft, settings.profile, answers);
         setAsking(true);
     }
 
@@ -61,24 +62,21 @@ final class SpawnRequests {
     }
 
     private void onResult(SpawnResult result) {
-        if (result.isRunning()) {
-            application.log(application.getString(R.string.spawn_runs, result.sentence(),
-                    result.place()));
-            logProxy(result);
+        RunnerAnswer answer = result.answer;
+        if (answer == null) {
+            application.log(application.getString(R.string.spawn_failed, result.sentence));
         } else {
-            application.log(application.getString(R.string.spawn_failed, result.sentence()));
+            application.log(application.getString(R.string.spawn_runs, result.sentence,
+                    answer.endpoint));
+            if (answer.proxyHost != null) {
+                application.log(application.getString(R.string.spawn_proxy, answer.proxyHost,
+                        answer.proxyGroundPort));
+            }
         }
         boolean isStillWanted = isAsking;
         setAsking(false);
-        if (result.isRunning() && isStillWanted) {
+        if (answer != null && isStillWanted) {
             start();
-        }
-    }
-
-    private void logProxy(SpawnResult result) {
-        if (result.proxyHost() != null && result.proxyPort() > 0) {
-            application.log(application.getString(R.string.spawn_proxy, result.proxyHost(),
-                    result.proxyPort()));
         }
     }
 

@@ -162,8 +162,8 @@ public final class Airborne {
         }
 
         @Override
-        public void onTrouble(String sentence) {
-            listener.onEvent("link_waiting", sentence);
+        public void onTrouble(String code, String sentence) {
+            listener.onEvent(code, sentence);
         }
     }
 

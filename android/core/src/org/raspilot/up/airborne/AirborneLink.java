@@ -48,7 +48,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         void onClosed(String code, String reason);
 
         /** Called with the reason for a missing link, once until it changes. */
-        void onTrouble(String sentence);
+        void onTrouble(String code, String sentence);
     }
 
     AirborneLink(Loop loop, AirborneSettings settings, Random random, Owner owner) {
@@ -169,7 +169,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         boolean isTrouble = status.state == UpSocketStatus.State.WAITING;
         if (isTrouble && !status.sentence.equals(reported)) {
             reported = status.sentence;
-            owner.onTrouble(reported);
+            owner.onTrouble(status.code, reported);
         }
     }
 
@@ -178,9 +178,9 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         if (settings.isByRunner()) {
             RunnerRequest request = new RunnerRequest(
                     settings.aircraft.isEmpty() ? NAMELESS : settings.aircraft,
-                    settings.profile.isEmpty() ? null : settings.profile,
-                    null);
-            return new RunnerClient(loop, settings.runnerHost, settings.runnerPort, request);
+                    settings.profile, settings.pairing);
+            return new RunnerClient(loop, settings.runnerHost, settings.runnerPort,
+                    settings.runnerTls, request);
         }
         if (!settings.host.isEmpty()) {
             return new FixedEndpoint(new Endpoint(

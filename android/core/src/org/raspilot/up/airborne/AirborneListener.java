@@ -23,8 +23,8 @@ public interface AirborneListener {
     /**
      * Called for anything else worth logging.
      *
-     * @param code {@code link_waiting nack_received provider_problem handler_failed sensor_silent
-     *     sensor_recovered}
+     * @param code {@code nack_received provider_problem handler_failed sensor_silent
+     *     sensor_recovered}, or that of {@link UpSocketStatus}: why there is no link
      */
     void onEvent(String code, String sentence);
 }

@@ -7,6 +7,8 @@ import org.raspilot.up.net.SettingRules;
 import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.OrientationProvider;
+import org.raspilot.up.security.Pairing;
+import org.raspilot.up.tls.TlsIdentity;
 
 /**
  * Settings of the airborne side, created by its {@link Builder}, which validates them.
@@ -33,6 +35,10 @@ public final class AirborneSettings {
     public final String aircraft;
     /** The runner's ready-made configuration; empty: none. */
     public final String profile;
+    /** This device's key of the aircraft, for the runner; null: its request is plain. */
+    public final Pairing pairing;
+    /** The certificates of TLS to the runner; null: plain TCP. */
+    public final TlsIdentity runnerTls;
     public final OrientationTransport orientation;
     private final boolean redundantOrientation;
     /** How often orientation leaves, Hz, 50 to 200. */
@@ -61,6 +67,8 @@ public final class AirborneSettings {
         runnerPort = builder.runnerPort;
         aircraft = builder.aircraft;
         profile = builder.profile;
+        pairing = builder.pairing;
+        runnerTls = builder.runnerTls;
         orientation = builder.orientation;
         redundantOrientation = builder.redundantOrientation;
         orientationHz = builder.orientationHz;
@@ -75,6 +83,12 @@ public final class AirborneSettings {
     /** Returns whether a runner starts the server: in Black Box Mode, if one is configured. */
     public boolean isByRunner() {
         return mode == AirborneMode.BLACK_BOX && !runnerHost.isEmpty();
+    }
+
+    /** Returns how the request to the runner is protected, without a full stop. */
+    public String runnerSecurityText() {
+        final String hop = runnerTls == null ? "plain" : "TLS";
+        return pairing == null ? hop : hop + ", signed by " + pairing;
     }
 
     /**
@@ -105,6 +119,7 @@ public final class AirborneSettings {
             SettingRules.aircraft("aircraft's name", aircraft);
         }
         SettingRules.range("length of the profile's name", profile.length(), 0, 64);
+        SettingRules.pairing(pairing, aircraft);
         SettingRules.range("rate of orientation (Hz)", orientationHz,
                 OrientationProvider.MIN_HZ, OrientationProvider.MAX_HZ);
         SettingRules.range("period of the location (ms)", locationPeriodMs, 20, MAX_PERIOD_MS);
@@ -137,6 +152,8 @@ public final class AirborneSettings {
         private int runnerPort = 3002;
         private String aircraft = "";
         private String profile = "";
+        private Pairing pairing;
+        private TlsIdentity runnerTls;
         private OrientationTransport orientation = OrientationTransport.TCP;
         private boolean redundantOrientation;
         private int orientationHz = 50;
@@ -157,6 +174,8 @@ public final class AirborneSettings {
         public Builder runnerPort(int v) { runnerPort = v; return this; }
         public Builder aircraft(String v) { aircraft = v; return this; }
         public Builder profile(String v) { profile = v; return this; }
+        public Builder pairing(Pairing v) { pairing = v; return this; }
+        public Builder runnerTls(TlsIdentity v) { runnerTls = v; return this; }
         public Builder orientation(OrientationTransport v) { orientation = v; return this; }
         public Builder redundantOrientation(boolean v) { redundantOrientation = v; return this; }
         public Builder orientationHz(int v) { orientationHz = v; return this; }

@@ -25,7 +25,6 @@ public final class CommandExecutor {
             new HashMap<>();
     private final ArrayDeque<Runnable> waiting = new ArrayDeque<>();
     private boolean isDelivering;
-    private long failedHandlers;
 
     /** Creates a bus; exceptions from handlers are reported to the listener. */
     public CommandExecutor(CommandRegistry registry, HandlerFaultListener faults) {
@@ -72,11 +71,6 @@ public final class CommandExecutor {
         return handlersOf(command.name()).size();
     }
 
-    /** Returns how often a handler failed, refusals not counted. */
-    public long failedHandlers() {
-        return failedHandlers;
-    }
-
     /** Delivers a Command, immediately or after the current delivery, and reports the outcome. */
     void execute(final BaseCommand command, final CommandOutcome outcome) {
         waiting.add(() -> deliver(command, outcome));
@@ -111,7 +105,6 @@ public final class CommandExecutor {
         } catch (CommandRefusedException refusal) {
             return refusal;
         } catch (RuntimeException | LinkageError | StackOverflowError fault) {
-            failedHandlers++;
             faults.onHandlerFailed(handler, command, fault);
             return fault;
         }

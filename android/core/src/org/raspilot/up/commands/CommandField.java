@@ -50,11 +50,6 @@ public final class CommandField {
         return new CommandField(new CatalogueEntry(description));
     }
 
-    /** Returns whether null is allowed. */
-    public boolean isNullable() {
-        return nullable;
-    }
-
     public boolean isRequired() {
         return required;
     }

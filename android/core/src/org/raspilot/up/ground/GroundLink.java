@@ -33,8 +33,6 @@ final class GroundLink implements UpSocketListener {
     private static final long KEY_INTERVAL_MS = 500;
     private static final int CONNECT_TIMEOUT_MS = 5000;
     private static final int HEARTBEAT_MS = 1000;
-    private static final int INITIAL_RETRY_MS = 500;
-    private static final int MAX_RETRY_MS = 2000;
 
     private final Loop loop;
     private final GroundSettings settings;
@@ -50,7 +48,7 @@ final class GroundLink implements UpSocketListener {
     private long connectingMs;
     private long connectTookMs;
     private long helloMs;
-    private Cancellable helloTimer;
+    private Cancellable helloTimer = Cancellable.DONE;
     private UpSocketStatus judged;
 
     GroundLink(Loop loop, GroundSettings settings, TokenStore tokens, LinkListener listener,
@@ -60,11 +58,11 @@ final class GroundLink implements UpSocketListener {
         this.listener = listener;
         claim = new ControlLease(settings, tokens, facts);
         quiet = new SilenceWatchdog(loop, new Quiet());
-        security = settings.pairing == null ? null
-                : new LinkSecurity(loop, settings.pairing, facts, new Secured());
+        security = new LinkSecurity(loop, settings.pairing, facts, new Secured());
+        facts.isTls = settings.tls != null;
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
-                .withRetryMs(INITIAL_RETRY_MS, MAX_RETRY_MS);
+                .withTls(settings.tls);
         socket = new UpSocket(loop,
                 new FixedEndpoint(new Endpoint(settings.host, settings.port, 0)), this,
                 // A thesis peer does not support heartbeats.
@@ -113,7 +111,7 @@ final class GroundLink implements UpSocketListener {
      * requires, or when too much data waits.
      */
     boolean send(byte[] line) {
-        final byte[] sealed = security == null ? line : security.seal(line);
+        final byte[] sealed = security.seal(line);
         return sealed != null && sendPlain(sealed);
     }
 
@@ -271,7 +269,7 @@ final class GroundLink implements UpSocketListener {
             facts.strangeControl++;
         } else {
             claim.onControl(said);
-            if (said.kind == ControlLine.Kind.AIRCRAFT_ONLINE && security != null) {
+            if (said.kind == ControlLine.Kind.AIRCRAFT_ONLINE) {
                 security.renew();
             }
             listener.onLink();
@@ -304,19 +302,12 @@ final class GroundLink implements UpSocketListener {
 
     /** Returns the body as far as this device may take it; null: it may not. */
     private byte[] open(byte[] body) {
-        if (security != null) {
-            final String before = facts.keyFault();
-            final byte[] opened = security.open(body);
-            if (!before.equals(facts.keyFault())) {
-                listener.onLink();
-            }
-            return opened;
+        final String before = facts.keyFault();
+        final byte[] opened = security.open(body);
+        if (!before.equals(facts.keyFault())) {
+            listener.onLink();
         }
-        if (body[0] == BinaryLine.PROTECTED || body[0] == BinaryLine.HANDSHAKE) {
-            facts.unprotected++;
-            return null;
-        }
-        return body;
+        return opened;
     }
 
     private void requestKey() {
@@ -328,33 +319,23 @@ final class GroundLink implements UpSocketListener {
     }
 
     private void opened(long roundTripMs) {
-        endHello();
+        helloTimer.cancel();
         facts.enter(LinkState.OPEN, loop.nowMs(), "", "");
         facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
         facts.failures = 0;
         facts.connections++;
-        if (security != null) {
-            security.start();
-        }
+        security.start();
         if (settings.isDirect) {
             listener.onOpened();
             listener.onLink();
         }
     }
 
-    private void endHello() {
-        if (helloTimer != null) {
-            helloTimer.cancel();
-        }
-    }
-
     private void close(LinkState state, String code, String reason) {
-        endHello();
+        helloTimer.cancel();
         quiet.stop();
-        if (security != null) {
-            security.stop();
-        }
+        security.stop();
         isGreeted = false;
         facts.roundTripMs = null;
         facts.enter(state, loop.nowMs(), code, reason);

@@ -3,16 +3,13 @@ package org.raspilot.up.ground;
 import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.net.SettingRules;
 import org.raspilot.up.security.Pairing;
+import org.raspilot.up.tls.TlsIdentity;
 import org.raspilot.up.wire.ProxyRole;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {
     /** The ground port of a Ground Station Proxy. */
     public static final int PROXY_PORT = 3004;
-    /** The port of an aircraft's own listener. */
-    public static final int DIRECT_PORT = 50002;
-    /** The default aircraft of a proxy. */
-    public static final String DEFAULT_AIRCRAFT = "default";
 
     /** The name or address of the other side. */
     public final String host;
@@ -23,6 +20,8 @@ public final class GroundSettings {
     public final boolean isDirect;
     /** This device's key of the aircraft; null: the link is plain. */
     public final Pairing pairing;
+    /** The certificates of TLS; null: plain TCP. */
+    public final TlsIdentity tls;
 
     /**
      * Creates settings.
@@ -36,11 +35,11 @@ public final class GroundSettings {
      */
     public GroundSettings(String host, int port, String aircraft, ProxyRole seat,
             boolean isDirect) {
-        this(host, port, aircraft, seat, isDirect, null);
+        this(host, port, aircraft, seat, isDirect, null, null);
     }
 
     private GroundSettings(String host, int port, String aircraft, ProxyRole seat,
-            boolean isDirect, Pairing pairing) {
+            boolean isDirect, Pairing pairing, TlsIdentity tls) {
         SettingRules.host("host", host == null ? "" : host.trim());
         SettingRules.port("port", port);
         SettingRules.aircraft("aircraft's name", aircraft);
@@ -53,14 +52,18 @@ public final class GroundSettings {
         this.role = seat;
         this.isDirect = isDirect;
         this.pairing = pairing;
+        this.tls = tls;
     }
 
     /** Returns these settings with a key of the aircraft: plain lines are refused; null: none. */
     public GroundSettings withPairing(Pairing key) {
-        if (key != null && !key.aircraft.equals(aircraft)) {
-            throw new InvalidSettingException("key", "is that of another aircraft");
-        }
-        return new GroundSettings(host, port, aircraft, role, isDirect, key);
+        SettingRules.pairing(key, aircraft);
+        return new GroundSettings(host, port, aircraft, role, isDirect, key, tls);
+    }
+
+    /** Returns these settings with TLS alone; null: plain TCP. */
+    public GroundSettings withTls(TlsIdentity identity) {
+        return new GroundSettings(host, port, aircraft, role, isDirect, pairing, identity);
     }
 
     /** Returns host and port as people write them. */

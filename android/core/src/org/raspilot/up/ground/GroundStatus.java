@@ -39,8 +39,10 @@ public final class GroundStatus {
     public final String commandRole;
     /** Why the key's session is not open, a code of {@link KeyTexts}; empty: it is, or no key. */
     public final String keyFault;
-    /** The name of this device's key for the aircraft; empty: the link is plain. */
+    /** The name of this device's key for the aircraft; empty: it has none. */
     public final String keyName;
+    /** Whether the connection to the other side is by TLS. */
+    public final boolean isTls;
     /** Whether gains may be set in flight, or null if unknown. */
     public final Boolean tuneInFlight;
     /** The aircraft's home; null: not known. */
@@ -68,6 +70,7 @@ public final class GroundStatus {
         commandRole = facts.keyRole.isEmpty() ? newest.text("ground.role") : facts.keyRole;
         keyFault = facts.keyFault();
         keyName = facts.keyName;
+        isTls = facts.isTls;
         tuneInFlight = newest.flag("ground.tune_in_flight");
         this.home = home;
         this.counters = counters;
@@ -95,10 +98,11 @@ public final class GroundStatus {
     /** Returns how the link is protected, with the key's name and role, without a full stop. */
     public String securityText() {
         if (keyName.isEmpty()) {
-            return "plain link";
+            return isTls ? "TLS, no key" : "plain link";
         }
-        return keyFault.isEmpty() ? "end to end: " + keyName + " (" + commandRole + ")"
+        final String key = keyFault.isEmpty() ? "end to end: " + keyName + " (" + commandRole + ")"
                 : "key " + keyName + ": " + KeyTexts.fault(keyFault);
+        return isTls ? "TLS, " + key : key;
     }
 
     /** Describes the owner of control for a pilot, without a full stop. */

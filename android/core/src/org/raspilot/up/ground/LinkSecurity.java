@@ -11,6 +11,7 @@ import org.raspilot.up.wire.BinaryLine;
 
 /**
  * The protected session on a link: hellos, renewal, and what {@link LinkStatus} shows of it.
+ * Without a key lines are plain, and protected ones are counted.
  *
  * <p>Source: docs/security.md, docs/protocols.md 11.
  */
@@ -45,14 +46,16 @@ final class LinkSecurity {
         this.loop = loop;
         this.facts = facts;
         this.owner = owner;
-        session = new GroundSession(pairing);
-        facts.keyName = pairing.name;
+        session = pairing == null ? null : new GroundSession(pairing);
+        facts.keyName = pairing == null ? "" : pairing.name;
     }
 
     /** Begins on an open connection. */
     void start() {
-        isStarted = true;
-        hello();
+        if (session != null) {
+            isStarted = true;
+            hello();
+        }
     }
 
     /** Ends with the connection: its session is not resumed. */
@@ -71,6 +74,9 @@ final class LinkSecurity {
 
     /** Returns the protected line of a line with its LF; null without a session. */
     byte[] seal(byte[] line) {
+        if (session == null) {
+            return line;
+        }
         return facts.keyRole.isEmpty() ? null
                 : BinaryLine.toLine(session.seal(Arrays.copyOf(line, line.length - 1)));
     }
@@ -78,18 +84,24 @@ final class LinkSecurity {
     /**
      * Returns what a body protects; null: a handshake, for others, or refused and counted.
      *
-     * <p>A plain body is refused: whoever can drop the protected ones could have written it.
+     * <p>With a key a plain body is refused: whoever can drop the protected ones could have
+     * written it.
      */
     byte[] open(byte[] body) {
+        final boolean isPlain =
+                body[0] != BinaryLine.PROTECTED && body[0] != BinaryLine.HANDSHAKE;
+        if (isPlain != (session == null)) {
+            facts.unprotected++;
+            return null;
+        }
+        if (isPlain) {
+            return body;
+        }
         try {
             if (body[0] == BinaryLine.PROTECTED) {
                 return session.open(body);
             }
-            if (body[0] == BinaryLine.HANDSHAKE) {
-                onReply(session.onHandshake(body));
-            } else {
-                facts.unprotected++;
-            }
+            onReply(session.onHandshake(body));
         } catch (EnvelopeException fault) {
             if (fault.code.equals("unknown_stream")) {
                 // The aircraft has restarted, or drew a new key after a revocation.

@@ -19,6 +19,7 @@ final class LinkStatus {
     Boolean isAircraftOnline;
     Double roundTripMs;
     int failures;
+    boolean isTls;
     long connections;
     long malformed;
     long strangeControl;

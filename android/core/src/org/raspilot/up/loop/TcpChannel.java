@@ -208,7 +208,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
     private void fail(String reason) {
         if (state != State.CLOSED) {
             close();
-            listener.onClosed(reason);
+            listener.onClosed("closed", reason);
         }
     }
 

@@ -27,8 +27,9 @@ public interface TcpConnection {
          * Called once when the connection ended or failed to open; not after the own {@link
          * TcpConnection#close}.
          *
+         * @param code {@code closed}, or one of TLS (docs/security.md)
          * @param reason a sentence without a full stop
          */
-        void onClosed(String reason);
+        void onClosed(String code, String reason);
     }
 }

@@ -24,8 +24,6 @@ public final class DiscoveryClient implements EndpointDiscovery {
     private final int port;
     private final int generalPort;
     private final int orientationPort;
-    private long wrongAnswers;
-    private long foreignAnswers;
 
     /**
      * Creates a client.
@@ -51,16 +49,6 @@ public final class DiscoveryClient implements EndpointDiscovery {
         return question;
     }
 
-    /** Returns how many answers were not understood, or came from another port. */
-    public long wrongAnswers() {
-        return wrongAnswers;
-    }
-
-    /** Returns how many answers named another address than the sender's, or a public one. */
-    public long foreignAnswers() {
-        return foreignAnswers;
-    }
-
     private final class Question implements Cancellable, UdpListener {
         private final DiscoveryListener listener;
         private boolean isPending = true;
@@ -79,7 +67,8 @@ public final class DiscoveryClient implements EndpointDiscovery {
                 udp = loop.network().openUdp(this);
             } catch (IOException error) {
                 isPending = false;
-                listener.onNotFound("no socket to ask Discovery with: " + error.getMessage());
+                listener.onNotFound("not_found",
+                        "no socket to ask Discovery with: " + error.getMessage());
                 return;
             }
             limit = loop.schedule(ANSWER_MS, () -> giveUp());
@@ -106,11 +95,9 @@ public final class DiscoveryClient implements EndpointDiscovery {
             final String found = sourcePort == port
                     ? DiscoveryAnswer.read(bytes, length, host) : null;
             if (found == null) {
-                wrongAnswers++;
                 return;
             }
             if (!DiscoveryAnswer.isUsable(found, host)) {
-                foreignAnswers++;
                 refused = "; refused " + found + " from " + host
                         + ": not the sender's own address in a private network";
                 return;
@@ -130,7 +117,8 @@ public final class DiscoveryClient implements EndpointDiscovery {
             cancel();
             final List<String> asked = addresses.current();
             final String where = asked + " port " + port;
-            listener.onNotFound(wasSent ? "no answer from Discovery at " + where + refused
+            listener.onNotFound("not_found", wasSent
+                    ? "no answer from Discovery at " + where + refused
                     : "no network to ask for Discovery in: " + where);
         }
     }

@@ -17,8 +17,9 @@ public interface EndpointDiscovery {
         /**
          * Called when the search fails.
          *
+         * @param code why, as a stable word: {@code not_found}, or a runner's
          * @param reason a sentence without a full stop
          */
-        void onNotFound(String reason);
+        void onNotFound(String code, String reason);
     }
 }

@@ -36,8 +36,8 @@ public final class LastEndpoint implements EndpointDiscovery {
             }
 
             @Override
-            public void onNotFound(String reason) {
-                listener.onNotFound(reason);
+            public void onNotFound(String code, String reason) {
+                listener.onNotFound(code, reason);
             }
         });
     }
@@ -46,7 +46,7 @@ public final class LastEndpoint implements EndpointDiscovery {
     public EndpointDiscovery follower() {
         return listener -> {
             if (endpoint == null) {
-                listener.onNotFound("the Raspberry Pi is not found yet");
+                listener.onNotFound("not_found", "the Raspberry Pi is not found yet");
             } else {
                 listener.onFound(endpoint);
             }

@@ -27,8 +27,6 @@ public final class OrientationSender {
     private Endpoint followed;
     private boolean isStarted;
     private String problem = "";
-    private long udpSent;
-    private long dropped;
 
     /**
      * Creates a sender that is not started.
@@ -101,7 +99,6 @@ public final class OrientationSender {
             throw new IllegalArgumentException("a frame of " + frame.length + " bytes");
         }
         if (!isStarted) {
-            dropped++;
             return false;
         }
         follow();
@@ -132,33 +129,13 @@ public final class OrientationSender {
                 : place.host + " has no orientation port";
     }
 
-    /** Returns how many frames the system took whole. */
-    public long sent() {
-        return socket != null ? socket.counters().sent : udpSent;
-    }
-
-    /** Returns how many frames were dropped or replaced by a newer one. */
-    public long dropped() {
-        if (socket == null) {
-            return dropped;
-        }
-        final UpSocketCounters counters = socket.counters();
-        return dropped + counters.dropped + counters.replaced;
-    }
-
     private boolean sendDatagram(byte[] frame) {
         if (udp == null) {
             openUdp();
         }
         final Endpoint place = known.endpoint();
-        final boolean isSent = udp != null && hasPort()
+        return udp != null && hasPort()
                 && udp.send(frame, place.host, place.orientationPort);
-        if (isSent) {
-            udpSent++;
-        } else {
-            dropped++;
-        }
-        return isSent;
     }
 
     private boolean hasPort() {

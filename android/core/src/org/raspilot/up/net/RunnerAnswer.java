@@ -13,9 +13,6 @@ public final class RunnerAnswer {
     public final String message;
     /** A warning about the running instance, or null. */
     public final String error;
-    public final boolean isSpawned;
-    /** The instance's name; null: absent. */
-    public final String instance;
     public final Endpoint endpoint;
     /** The proxy's host for grounds of this aircraft; null: absent. */
     public final String proxyHost;
@@ -26,8 +23,6 @@ public final class RunnerAnswer {
         this.endpoint = place;
         message = text(answer, "message");
         error = text(answer, "error");
-        isSpawned = Boolean.TRUE.equals(answer.get("spawned"));
-        instance = text(answer, "instance");
         proxyGroundPort = proxy == null ? 0 : port(proxy, "ground");
         proxyHost = proxyGroundPort == 0 ? null : text(proxy, "host");
     }
@@ -47,7 +42,8 @@ public final class RunnerAnswer {
         if (!(Boolean) isRunning) {
             final String error = text(answer, "error");
             final String message = text(answer, "message");
-            throw new RefusedException("refused", "the runner says: "
+            final String code = text(answer, "code");
+            throw new RefusedException(code != null ? code : "refused", "the runner says: "
                     + (error != null ? error : message != null ? message : "nothing runs"));
         }
         final Map<?, ?> ports = object(answer, "ports");
@@ -105,7 +101,7 @@ public final class RunnerAnswer {
     /** No place is to be had; the message is a sentence without a full stop. */
     static final class RefusedException extends Exception {
         private static final long serialVersionUID = 1L;
-        /** {@code refused no_ports not_understood}. */
+        /** {@code refused no_ports not_understood}, or the runner's. */
         final String code;
 
         RefusedException(String code, String sentence) {

@@ -7,8 +7,15 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
+import org.raspilot.up.security.EnvelopeException;
+import org.raspilot.up.security.RunnerSession;
+import org.raspilot.up.tls.TlsConnection;
+import org.raspilot.up.tls.TlsIdentity;
 
-/** Requests an instance from a runner and finds its address (protocols 8). Only on the loop. */
+/**
+ * Requests an instance from a runner and finds its address (protocols 8). With a key only an
+ * authentic answer counts. Only on the loop.
+ */
 public final class RunnerClient implements EndpointDiscovery {
     /** The TCP port of a runner. */
     public static final int PORT = 3002;
@@ -19,9 +26,12 @@ public final class RunnerClient implements EndpointDiscovery {
     /** Bytes of the longest answer. */
     public static final int MAX_ANSWER_BYTES = 65536;
 
+    private static final Charset UTF_8 = Charset.forName("UTF-8");
+
     private final Loop loop;
     private final String host;
     private final int port;
+    private final TlsIdentity tls;
     private final RunnerRequest request;
     private RunnerAnswer lastAnswer;
 
@@ -30,18 +40,21 @@ public final class RunnerClient implements EndpointDiscovery {
      *
      * @param host the runner's name or address
      * @param port its port, {@link #PORT} unless configured
+     * @param tls the certificates of TLS; null: plain TCP
      */
-    public RunnerClient(Loop loop, String host, int port, RunnerRequest request) {
+    public RunnerClient(Loop loop, String host, int port, TlsIdentity tls,
+            RunnerRequest request) {
         this.loop = loop;
         this.host = host;
         this.port = port;
+        this.tls = tls;
         this.request = request;
     }
 
     @Override
     public Cancellable find(DiscoveryListener listener) {
         final Request asked = new Request(listener);
-        asked.connection = loop.network().connectTcp(host, port, CONNECT_MS, asked);
+        asked.connection = TlsConnection.open(loop, tls, host, port, CONNECT_MS, asked);
         return asked;
     }
 
@@ -52,7 +65,11 @@ public final class RunnerClient implements EndpointDiscovery {
 
     private final class Request implements Cancellable, TcpListener {
         private final DiscoveryListener listener;
-        private final byte[] line = request.toLine();
+        private final RunnerSession session =
+                request.pairing == null ? null : new RunnerSession(request.pairing);
+        private byte[] line =
+                (session == null ? request.json + "\n" : session.hello()).getBytes(UTF_8);
+        private boolean isAsked = session == null;
         private final ByteArrayOutputStream answer = new ByteArrayOutputStream();
         private TcpConnection connection;
         private Cancellable limit;
@@ -82,7 +99,8 @@ public final class RunnerClient implements EndpointDiscovery {
         @Override
         public void onConnected() {
             limit = loop.schedule(ANSWER_MS, () ->
-                    fail("the runner did not answer within " + ANSWER_MS / 1000 + " s"));
+                    fail("no_answer",
+                            "the runner did not answer within " + ANSWER_MS / 1000 + " s"));
             onWritable();
         }
 
@@ -98,27 +116,41 @@ public final class RunnerClient implements EndpointDiscovery {
                 end++;
             }
             if (answer.size() + end > MAX_ANSWER_BYTES) {
-                fail("the runner's answer is longer than " + MAX_ANSWER_BYTES + " bytes");
+                fail("not_understood",
+                        "the runner's answer is longer than " + MAX_ANSWER_BYTES + " bytes");
                 return;
             }
             answer.write(bytes, 0, end);
             if (end < length) {
-                read(new String(answer.toByteArray(), Charset.forName("UTF-8")));
+                final String said = new String(answer.toByteArray(), UTF_8);
+                answer.reset();
+                read(said);
             }
         }
 
         @Override
-        public void onClosed(String reason) {
-            fail(limit == null ? "no runner: " + reason
+        public void onClosed(String code, String reason) {
+            fail(code, limit == null ? "no runner: " + reason
                     : "the runner hung up without an answer: " + reason);
         }
 
-        private void read(String text) {
+        private void read(String said) {
             final RunnerAnswer read;
             try {
-                read = RunnerAnswer.read(text, host);
+                if (!isAsked) {
+                    isAsked = true;
+                    line = session.request(said, request.json).getBytes(UTF_8);
+                    written = 0;
+                    onWritable();
+                    return;
+                }
+                read = RunnerAnswer.read(session == null ? said : session.result(said), host);
             } catch (RunnerAnswer.RefusedException refusal) {
-                fail(refusal.getMessage());
+                fail(refusal.code, refusal.getMessage());
+                return;
+            } catch (EnvelopeException refusal) {
+                fail(refusal.code, "the runner gives no protected answer to the key "
+                        + request.pairing + ": " + refusal.code);
                 return;
             }
             lastAnswer = read;
@@ -126,9 +158,9 @@ public final class RunnerClient implements EndpointDiscovery {
             listener.onFound(read.endpoint);
         }
 
-        private void fail(String reason) {
+        private void fail(String code, String reason) {
             cancel();
-            listener.onNotFound(reason);
+            listener.onNotFound(code, reason);
         }
     }
 }

@@ -1,45 +1,32 @@
 package org.raspilot.up.net;
 
-import java.nio.charset.Charset;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import org.raspilot.up.security.Pairing;
 import org.raspilot.up.wire.Json;
 
-/** A request to a runner (protocols 8): an aircraft, a profile, a configuration. */
+/** A request to a runner (protocols 8): an aircraft, a profile, and the key that signs it. */
 public final class RunnerRequest {
-    /** Bytes of the longest request with its LF. */
-    public static final int MAX_LINE_BYTES = 65536;
-
-    private final byte[] line;
+    final Pairing pairing;
+    /** As JSON in ASCII, without an LF. */
+    final String json;
 
     /**
      * Creates a request.
      *
      * @param aircraft 1 to 32 of {@code A-Z a-z 0-9 _ . -}, not beginning with a dot
-     * @param profile name of a ready-made configuration on the runner's host, or null
-     * @param configuration files and their keys, or null
-     * @throws IllegalArgumentException with a sentence when the aircraft's name is invalid, the
-     *     configuration cannot be written as JSON, or the request is longer than 64 KiB
+     * @param profile name of a ready-made configuration on the runner's host; empty: none
+     * @param pairing this device's key of the aircraft; null: the request is plain
+     * @throws SettingRules.InvalidSettingException when the aircraft's name is invalid
      */
-    public RunnerRequest(String aircraft, String profile, Map<String, ?> configuration) {
+    public RunnerRequest(String aircraft, String profile, Pairing pairing) {
         SettingRules.aircraft("aircraft's name", aircraft);
         final Map<String, Object> request = new LinkedHashMap<>();
         request.put("aircraft", aircraft);
-        if (profile != null) {
+        if (!profile.isEmpty()) {
             request.put("profile", profile);
         }
-        if (configuration != null) {
-            request.put("configuration", configuration);
-        }
-        line = (Json.write(request) + "\n").getBytes(Charset.forName("UTF-8"));
-        if (line.length > MAX_LINE_BYTES) {
-            throw new IllegalArgumentException("the request has " + line.length
-                    + " bytes, more than " + MAX_LINE_BYTES);
-        }
-    }
-
-    /** Returns the line with its LF. */
-    public byte[] toLine() {
-        return line.clone();
+        this.pairing = pairing;
+        json = Json.write(request);
     }
 }

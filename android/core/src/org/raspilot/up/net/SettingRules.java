@@ -1,6 +1,7 @@
 package org.raspilot.up.net;
 
 import java.util.regex.Pattern;
+import org.raspilot.up.security.Pairing;
 import org.raspilot.up.wire.Hello;
 
 /** The rules that settings share; each throws {@link InvalidSettingException}. */
@@ -40,6 +41,13 @@ public final class SettingRules {
         if (!Hello.isAircraftName(name)) {
             throw new InvalidSettingException(setting,
                     "must be 1 to 32 of A-Z a-z 0-9 _ . - and not begin with a dot");
+        }
+    }
+
+    /** Checks that a key, if there is one, is that of the aircraft. */
+    public static void pairing(Pairing key, String aircraft) {
+        if (key != null && !key.aircraft.equals(aircraft)) {
+            throw new InvalidSettingException("key", "is that of another aircraft");
         }
     }
 

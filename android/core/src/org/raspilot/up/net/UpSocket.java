@@ -6,6 +6,7 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
+import org.raspilot.up.tls.TlsConnection;
 
 /**
  * Keeps one connection to a peer: finds it, connects, and reconnects after a loss.
@@ -30,11 +31,9 @@ public final class UpSocket {
     private Attempt current;
     private Cancellable retry;
     private long connects;
-    private long failedAttempts;
     private long lost;
     private long dropped;
     private long received;
-    private long bytesIn;
 
     /**
      * Creates a socket that is not started.
@@ -102,8 +101,6 @@ public final class UpSocket {
                 // Not earlier: the wait must grow for a peer that always hangs up immediately.
                 backOff.reset();
             }
-        } else {
-            failedAttempts++;
         }
         final boolean wasConnected = end();
         retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
@@ -149,8 +146,8 @@ public final class UpSocket {
     }
 
     public UpSocketCounters counters() {
-        return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
-                queue.replaced(), received, lines.tooLong(), bytesIn, queue.bytesOut());
+        return new UpSocketCounters(connects, lost, queue.sent(), dropped,
+                queue.replaced(), received, lines.tooLong(), queue.bytesOut());
     }
 
     private void attempt() {
@@ -247,14 +244,14 @@ public final class UpSocket {
             final int port = settings.isRaw ? found.orientationPort : found.generalPort;
             peer = found.host + ":" + port;
             setState(UpSocketStatus.State.CONNECTING, "", "connecting to " + peer);
-            connection = loop.network().connectTcp(found.host, port,
+            connection = TlsConnection.open(loop, settings.tls, found.host, port,
                     settings.connectTimeoutMs, this);
         }
 
         @Override
-        public void onNotFound(String reason) {
+        public void onNotFound(String code, String reason) {
             if (current == this) {
-                drop("not_found", reason);
+                drop(code, reason);
             }
         }
 
@@ -270,7 +267,6 @@ public final class UpSocket {
 
         @Override
         public void onBytes(byte[] bytes, int length) {
-            bytesIn += length;
             if (settings.isRaw) {
                 receive(bytes, length);
             } else {
@@ -284,8 +280,8 @@ public final class UpSocket {
         }
 
         @Override
-        public void onClosed(String reason) {
-            drop("closed", reason);
+        public void onClosed(String code, String reason) {
+            drop(code, reason);
         }
     }
 }

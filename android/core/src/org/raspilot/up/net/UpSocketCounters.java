@@ -3,8 +3,6 @@ package org.raspilot.up.net;
 /** What an {@link UpSocket} counted since it was made. */
 public final class UpSocketCounters {
     public final long connects;
-    /** How many attempts found no place or made no connection. */
-    public final long failedAttempts;
     public final long lost;
     /** How many lines or frames the system took whole, heartbeats not counted. */
     public final long sent;
@@ -16,22 +14,18 @@ public final class UpSocketCounters {
     public final long received;
     /** How many lines were dropped because they were too long. */
     public final long tooLong;
-    /** How many bytes came. */
-    public final long bytesIn;
     /** How many bytes the system took. */
     public final long bytesOut;
 
-    UpSocketCounters(long connects, long failedAttempts, long lost, long sent, long dropped,
-            long replaced, long received, long tooLong, long bytesIn, long bytesOut) {
+    UpSocketCounters(long connects, long lost, long sent, long dropped, long replaced,
+            long received, long tooLong, long bytesOut) {
         this.connects = connects;
-        this.failedAttempts = failedAttempts;
         this.lost = lost;
         this.sent = sent;
         this.dropped = dropped;
         this.replaced = replaced;
         this.received = received;
         this.tooLong = tooLong;
-        this.bytesIn = bytesIn;
         this.bytesOut = bytesOut;
     }
 }

@@ -1,5 +1,7 @@
 package org.raspilot.up.net;
 
+import org.raspilot.up.tls.TlsIdentity;
+
 /** How an {@link UpSocket} behaves; immutable, each {@code with} returns another. Times in ms. */
 public final class UpSocketSettings {
     /** Most bytes that wait in order. */
@@ -15,15 +17,18 @@ public final class UpSocketSettings {
     /** The wait after the first failure. */
     public final int initialRetryMs;
     public final int maxRetryMs;
+    /** The certificates of TLS; null: plain TCP. */
+    public final TlsIdentity tls;
 
-    private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
-            int initialRetryMs, int maxRetryMs) {
+    UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
+            int initialRetryMs, int maxRetryMs, TlsIdentity tls) {
         this.isRaw = isRaw;
         this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
         this.heartbeatMs = atLeast(0, heartbeatMs);
         this.stallLimitMs = atLeast(0, stallLimitMs);
         this.initialRetryMs = atLeast(1, initialRetryMs);
         this.maxRetryMs = atLeast(initialRetryMs, maxRetryMs);
+        this.tls = tls;
         if (isRaw && heartbeatMs > 0) {
             throw new IllegalArgumentException("raw frames have no heartbeat");
         }
@@ -34,36 +39,30 @@ public final class UpSocketSettings {
      * heartbeat, 3 s in which the peer may take nothing of what waits.
      */
     public static UpSocketSettings lines() {
-        return new UpSocketSettings(false, 2000, 0, 3000, 500, 2000);
+        return new UpSocketSettings(false, 2000, 0, 3000, 500, 2000, null);
     }
 
     /** Returns raw frames to the orientation port; otherwise as {@link #lines}. */
     public static UpSocketSettings raw() {
-        return new UpSocketSettings(true, 2000, 0, 3000, 500, 2000);
+        return new UpSocketSettings(true, 2000, 0, 3000, 500, 2000, null);
     }
 
     /** Returns these settings with a timeout of each attempt, including name lookup. */
     public UpSocketSettings withConnectTimeoutMs(int timeoutMs) {
         return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, stallLimitMs,
-                initialRetryMs, maxRetryMs);
+                initialRetryMs, maxRetryMs, tls);
     }
 
     /** Returns these with an empty line after each {@code periodMs} of own silence; 0: none. */
     public UpSocketSettings withHeartbeatMs(int periodMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, periodMs, stallLimitMs,
-                initialRetryMs, maxRetryMs);
+                initialRetryMs, maxRetryMs, tls);
     }
 
-    /** Returns these with the end of a connection that took nothing of what waits; 0: never. */
-    public UpSocketSettings withStallLimitMs(int limitMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs,
-                initialRetryMs, maxRetryMs);
-    }
-
-    /** Returns these with waits between attempts that double from the first to the last. */
-    public UpSocketSettings withRetryMs(int firstMs, int lastMs) {
+    /** Returns these with TLS alone, to a server that these certificates accept; null: plain. */
+    public UpSocketSettings withTls(TlsIdentity identity) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, stallLimitMs,
-                firstMs, lastMs);
+                initialRetryMs, maxRetryMs, identity);
     }
 
     private static int atLeast(int least, int value) {

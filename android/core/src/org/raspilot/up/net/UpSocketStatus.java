@@ -19,8 +19,8 @@ public final class UpSocketStatus {
     /** The last place found; null: none so far. */
     public final Endpoint endpoint;
     /**
-     * Why it is not connected, as a stable word: {@code not_found closed stopped silent ...};
-     * otherwise empty.
+     * Why it is not connected, as a stable word: {@code not_found closed stopped silent tls_...},
+     * or a runner's; otherwise empty.
      */
     public final String code;
 

@@ -31,12 +31,16 @@ public final class GroundSession {
     private final Map<Integer, MessageStream> streams = new LinkedHashMap<>();
 
     public GroundSession(Pairing pairing) {
-        this(pairing, seeded(new SecureRandom()));
+        this(pairing.aircraft, pairing, seeded(new SecureRandom()));
     }
 
-    /** Draws its nonces from {@code random}. */
-    GroundSession(Pairing pairing, Random random) {
-        aircraft = Hmac.ascii(pairing.aircraft);
+    /**
+     * Draws its nonces from {@code random}.
+     *
+     * @param peer the name in every MAC
+     */
+    GroundSession(String peer, Pairing pairing, Random random) {
+        aircraft = Hmac.ascii(peer);
         keyId = pairing.keyId();
         secret = pairing.secret();
         this.random = random;
@@ -141,7 +145,7 @@ public final class GroundSession {
     }
 
     /** Mixes bytes of the kernel in: the generator of Android 4.3 and earlier may repeat itself. */
-    private static Random seeded(SecureRandom random) {
+    static Random seeded(SecureRandom random) {
         final byte[] seed = new byte[SEED_BYTES];
         try {
             final DataInputStream kernel =

@@ -53,7 +53,17 @@ public final class Pairing {
         return secret.clone();
     }
 
-    private static byte[] bytes(String hexadecimal) {
+    /** Returns the hexadecimal digits of bytes. */
+    static String digits(byte[] bytes) {
+        final StringBuilder digits = new StringBuilder();
+        for (byte each : bytes) {
+            digits.append(Character.forDigit(each >> 4 & 15, 16))
+                    .append(Character.forDigit(each & 15, 16));
+        }
+        return digits.toString();
+    }
+
+    static byte[] bytes(String hexadecimal) {
         final byte[] bytes = new byte[hexadecimal.length() / 2];
         for (int at = 0; at < bytes.length; at++) {
             bytes[at] = (byte) Integer.parseInt(

@@ -200,7 +200,7 @@ public final class AirborneTest {
             bench.general().end("10.0.0.1 refuses the connection");
             bench.loop.advance(10000);
         }
-        assertEquals(1, count("link_waiting"));
+        assertEquals(1, count("closed"));
     }
 
     @Test

@@ -67,7 +67,7 @@ public final class CommandExecutorTest {
         executor.registerCommand(Commands.ARM, noting("last"));
         assertEquals(4, executor.executeCommand(new BaseCommand(Commands.ARM)));
         assertEquals(Arrays.asList("last up.arm"), order);
-        assertEquals(2, executor.failedHandlers());
+        assertEquals(2, faults.faults.size());
         assertSame(failing.fault, faults.faults.get(0));
         assertEquals("android/media/Newer", faults.faults.get(1).getMessage());
     }

@@ -27,7 +27,7 @@ class Heard implements TcpListener {
     }
 
     @Override
-    public void onClosed(String reason) {
+    public void onClosed(String code, String reason) {
         told.add(reason);
     }
 

@@ -85,7 +85,7 @@ public final class ScriptedNetwork implements Network {
             if (isClosed) {
                 throw new AssertionError("ended by the other side already");
             }
-            listener.onClosed(reason);
+            listener.onClosed("closed", reason);
         }
 
         /** The system accepts that many more bytes. */

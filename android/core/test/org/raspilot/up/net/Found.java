@@ -7,6 +7,7 @@ import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 /** Records the result of a finder. */
 final class Found implements DiscoveryListener {
     final List<String> told = new ArrayList<>();
+    final List<String> codes = new ArrayList<>();
 
     @Override
     public void onFound(Endpoint place) {
@@ -14,7 +15,8 @@ final class Found implements DiscoveryListener {
     }
 
     @Override
-    public void onNotFound(String reason) {
+    public void onNotFound(String code, String reason) {
+        codes.add(code);
         told.add(reason);
     }
 }

@@ -21,7 +21,7 @@ public final class OrientationSenderTest {
     private Endpoint answer = new Endpoint("192.0.2.7", 50001, 50000);
     private final LastEndpoint known = new LastEndpoint(listener -> {
         if (answer == null) {
-            listener.onNotFound("nowhere");
+            listener.onNotFound("not_found", "nowhere");
         } else {
             listener.onFound(answer);
         }
@@ -49,8 +49,6 @@ public final class OrientationSenderTest {
         }
         network.newest().makeRoom(1000);
         assertEquals(text('a') + text('b') + text('z'), network.newest().written());
-        assertEquals(3, tcp.sent());
-        assertEquals(23, tcp.dropped());
     }
 
     @Test
@@ -141,8 +139,6 @@ public final class OrientationSenderTest {
         assertEquals("datagrams to 192.0.2.8:2", udp.sentence());
         network.ports.get(0).hasNoNetwork = true;
         assertFalse(udp.send(frame('d')));
-        assertEquals(2, udp.sent());
-        assertEquals(2, udp.dropped());
         answer = new Endpoint("192.0.2.8", 1, 0);
         find();
         assertFalse(udp.send(frame('e')));
@@ -176,7 +172,6 @@ public final class OrientationSenderTest {
             assertFalse(each.send(frame('a')));
             assertFalse(each.isReady());
             assertEquals("stopped", each.sentence());
-            assertEquals(2, each.dropped());
         }
         assertEquals(1, network.connections.size());
         assertTrue(network.newest().isClosed);

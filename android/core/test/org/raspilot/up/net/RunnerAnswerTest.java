@@ -1,13 +1,10 @@
 package org.raspilot.up.net;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
-import java.util.Collections;
-import java.util.Map;
 import org.junit.Test;
 import org.raspilot.up.net.SettingRules.InvalidSettingException;
 
@@ -24,8 +21,6 @@ public final class RunnerAnswerTest {
         assertEquals(new Endpoint("runner.example", 50001, 50000), answer.endpoint);
         assertEquals("Raspilot spawned", answer.message);
         assertNull(answer.error);
-        assertTrue(answer.isSpawned);
-        assertEquals("glider-1", answer.instance);
         assertEquals("proxy.example", answer.proxyHost);
         assertEquals(3004, answer.proxyGroundPort);
     }
@@ -36,7 +31,6 @@ public final class RunnerAnswerTest {
                 + " \"error\": \"another configuration\", \"proxy\": null,"
                 + " \"ports\": {\"general\": 1, \"orientation\": 65535}}", "h");
         assertEquals("another configuration", answer.error);
-        assertFalse(answer.isSpawned);
         assertNull(answer.message);
         assertNull(answer.proxyHost);
         assertEquals(0, answer.proxyGroundPort);
@@ -86,12 +80,9 @@ public final class RunnerAnswerTest {
 
     @Test
     public void aRequestNamesWhatIsAsked() throws Exception {
-        assertEquals("{\"aircraft\": \"glider-1\"}\n", line("glider-1", null, null));
-        final Map<String, ?> configuration = Collections.singletonMap("load_guard.yml",
-                Collections.singletonMap("interval", 1.0));
-        assertEquals("{\"aircraft\": \"a\", \"profile\": \"easyglider\", \"configuration\":"
-                + " {\"load_guard.yml\": {\"interval\": 1.0}}}\n",
-                line("a", "easyglider", configuration));
+        assertEquals("{\"aircraft\": \"glider-1\"}", new RunnerRequest("glider-1", "", null).json);
+        assertEquals("{\"aircraft\": \"a\", \"profile\": \"easyglider\"}",
+                new RunnerRequest("a", "easyglider", null).json);
     }
 
     @Test
@@ -99,20 +90,8 @@ public final class RunnerAnswerTest {
         for (String name : new String[] {null, "", ".hidden", "a b", "a\n", "a/b", "\u00e4",
             "x12345678901234567890123456789012"}) {
             assertThrows(name, InvalidSettingException.class, () ->
-                    new RunnerRequest(name, null, null));
+                    new RunnerRequest(name, "", null));
         }
-    }
-
-    @Test
-    public void aRequestThatNoRunnerReadsIsNotMade() {
-        final String much = new String(new char[65536]).replace('\0', 'x');
-        assertThrows(IllegalArgumentException.class, () ->
-                new RunnerRequest("a", null, Collections.singletonMap("a.yml", much)));
-    }
-
-    private static String line(String aircraft, String profile, Map<String, ?> configuration)
-            throws Exception {
-        return new String(new RunnerRequest(aircraft, profile, configuration).toLine(), "UTF-8");
     }
 
     private static void assertRefused(String code, String end, String line) {

@@ -21,9 +21,11 @@ import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
+import org.raspilot.up.security.Pairing;
+import org.raspilot.up.security.TestAircraft;
 
 public final class RunnerClientTest {
-    private static final RunnerRequest REQUEST = new RunnerRequest("glider-1", null, null);
+    private static final RunnerRequest REQUEST = new RunnerRequest("glider-1", "", null);
     private static final String ASKED = "{\"aircraft\": \"glider-1\"}\n";
     private static final String ANSWER =
             "{\"running\": true, \"ports\": {\"general\": 50001, \"orientation\": 50000}}";
@@ -33,7 +35,7 @@ public final class RunnerClientTest {
     private final Faults faults = new Faults();
     private final ScriptedNetwork network = new ScriptedNetwork();
     private final ManualLoop loop = new ManualLoop(network, faults);
-    private final RunnerClient client = new RunnerClient(loop, "runner", 3002, REQUEST);
+    private final RunnerClient client = new RunnerClient(loop, "runner", 3002, null, REQUEST);
     private final Found found = new Found();
 
     @After
@@ -71,8 +73,28 @@ public final class RunnerClientTest {
         network.newest().accept();
         network.newest().say("{\"running\": false, \"error\": \"no profile\"}\n");
         assertTrue(found.told.get(0).endsWith(": no profile"));
+        assertEquals(Arrays.asList("refused"), found.codes);
         assertTrue(network.newest().isClosed);
         assertNull(client.lastAnswer());
+    }
+
+    @Test
+    public void aRefusalHasTheRunnersCode() {
+        client.find(found);
+        network.newest().accept();
+        network.newest().say("{\"running\": false, \"code\": \"unprotected\"}\n");
+        assertEquals(Arrays.asList("unprotected"), found.codes);
+    }
+
+    @Test
+    public void withAKeyAPlainAnswerIsNotBelieved() {
+        new RunnerClient(loop, "runner", 3002, null, new RunnerRequest("glider-1", "",
+                Pairing.parse(TestAircraft.TEXT))).find(found);
+        network.newest().accept();
+        assertFalse(network.newest().written().contains("aircraft"));
+        network.newest().say(ANSWER + "\n");
+        assertEquals(Arrays.asList("unprotected"), found.codes);
+        assertTrue(network.newest().isClosed);
     }
 
     @Test
@@ -163,7 +185,7 @@ public final class RunnerClientTest {
 
     private void find(final ServerSocket server) {
         running.call(() -> {
-            return new RunnerClient(running.loop, "127.0.0.1", server.getLocalPort(), REQUEST)
+            return new RunnerClient(running.loop, "127.0.0.1", server.getLocalPort(), null, REQUEST)
                     .find(found);
         });
     }

@@ -103,12 +103,11 @@ public final class UpSocketOnLoopbackTest {
     }
 
     private static UpSocketSettings quick() {
-        return UpSocketSettings.lines().withRetryMs(1, 4).withConnectTimeoutMs(20000)
-                .withStallLimitMs(0);
+        return new UpSocketSettings(false, 20000, 0, 0, 1, 4, null);
     }
 
     private static UpSocketSettings quickRaw() {
-        return UpSocketSettings.raw().withConnectTimeoutMs(20000).withStallLimitMs(0);
+        return new UpSocketSettings(true, 20000, 0, 0, 500, 2000, null);
     }
 
     private UpSocket make(EndpointDiscovery discovery, UpSocketSettings settings) {

@@ -46,7 +46,7 @@ public final class UpSocketWatchTest {
 
     @Test
     public void aHeartbeatBreaksNoLine() {
-        connect(UpSocketSettings.lines().withHeartbeatMs(1000).withStallLimitMs(0));
+        connect(new UpSocketSettings(false, 2000, 1000, 0, 500, 2000, null));
         network.newest().room = 2;
         socket.send(new byte[] {'a', 'b', 'c'});
         loop.advance(5000);
@@ -115,7 +115,7 @@ public final class UpSocketWatchTest {
         assertThrows(IllegalArgumentException.class, () ->
                 UpSocketSettings.raw().withHeartbeatMs(1000));
         assertThrows(IllegalArgumentException.class, () ->
-                UpSocketSettings.lines().withRetryMs(500, 400));
+                new UpSocketSettings(false, 2000, 0, 3000, 500, 400, null));
     }
 
     private void connect(UpSocketSettings settings) {

@@ -19,7 +19,7 @@ import org.raspilot.up.wire.Vectors;
 public final class GroundSessionTest {
     private final Pairing pairing = of("glider-1");
     private final TestAircraft air = new TestAircraft(pairing);
-    private final GroundSession ground = new GroundSession(pairing, drawn());
+    private final GroundSession ground = new GroundSession("glider-1", pairing, drawn());
 
     private static Pairing of(String aircraft) {
         return Pairing.parse(TestAircraft.TEXT.replace(":glider:", ":" + aircraft + ":"));
@@ -183,7 +183,7 @@ public final class GroundSessionTest {
         final TestAircraft other = new TestAircraft(of("glider-2"));
         assertThrows(AssertionError.class, () -> other.answer(hello));
         final byte[] theirs =
-                other.answer(new GroundSession(of("glider-2"), drawn()).hello());
+                other.answer(new GroundSession("glider-2", of("glider-2"), drawn()).hello());
         refusedReply("forged", theirs);
     }
 

@@ -12,13 +12,18 @@ import java.util.Set;
 import java.util.TreeSet;
 import org.raspilot.up.android.api23.KeystoreCipher;
 import org.raspilot.up.security.Pairing;
+import org.raspilot.up.tls.TlsException;
+import org.raspilot.up.tls.TlsIdentity;
 
 /**
- * This phone's keys of aircraft, in a private file of the application; from Android 6 on encrypted
- * by a key of the system's keystore, before that as the system protects private files.
+ * This phone's keys of aircraft and its certificates for TLS, in a private file of the application;
+ * from Android 6 on encrypted by a key of the system's keystore, before that as the system protects
+ * private files.
  */
 public final class PairingStore {
     private static final String FILE = "up_keys";
+    /** No aircraft has this name. */
+    private static final String CERTIFICATES = "tls:";
     private static final String ENCRYPTED = "keystore ";
     private static final Charset ASCII = Charset.forName("US-ASCII");
 
@@ -35,7 +40,9 @@ public final class PairingStore {
 
     /** Returns the names of the aircraft whose keys are kept, sorted. */
     public Set<String> aircraft() {
-        return new TreeSet<>(kept.getAll().keySet());
+        Set<String> names = new TreeSet<>(kept.getAll().keySet());
+        names.remove(CERTIFICATES);
+        return names;
     }
 
     /**
@@ -45,24 +52,33 @@ public final class PairingStore {
      *     link must not become plain
      */
     public Pairing get(String aircraft) {
-        String value = kept.getString(aircraft, null);
-        if (value == null) {
-            return null;
-        }
+        Exception cause = null;
         try {
-            Pairing found = Pairing.parse(value.startsWith(ENCRYPTED)
-                    ? decrypted(value.substring(ENCRYPTED.length())) : value);
-            if (found != null && found.aircraft.equals(aircraft)) {
-                if (isInKeystore() && !value.startsWith(ENCRYPTED)) {
-                    // The system was older when it was paired.
-                    put(found);
-                }
+            String text = text(aircraft);
+            Pairing found = text == null ? null : Pairing.parse(text);
+            if (text == null || found != null && found.aircraft.equals(aircraft)) {
                 return found;
             }
         } catch (GeneralSecurityException | IOException | ProviderException fault) {
-            throw unreadable(aircraft, fault);
+            cause = fault;
         }
-        throw unreadable(aircraft, null);
+        throw new IllegalArgumentException(
+                "The key of " + aircraft + " cannot be read: forget it and pair again", cause);
+    }
+
+    /**
+     * Returns the certificates for TLS; null: there are none.
+     *
+     * @throws IllegalArgumentException with a sentence if they cannot be read
+     */
+    public TlsIdentity certificates() {
+        try {
+            String text = text(CERTIFICATES);
+            return text == null ? null : TlsIdentity.parse(text);
+        } catch (GeneralSecurityException | IOException | ProviderException fault) {
+            throw new IllegalArgumentException(
+                    "The certificates for TLS cannot be read: choose their file again", fault);
+        }
     }
 
     /**
@@ -71,7 +87,26 @@ public final class PairingStore {
      * @throws IllegalArgumentException with a sentence if this phone cannot keep it
      */
     public void put(Pairing pairing) {
-        String text = pairing.toText();
+        put(pairing.aircraft, pairing.toText());
+    }
+
+    /**
+     * Keeps the text of the files of {@code up certificates device}.
+     *
+     * @throws IllegalArgumentException with a sentence if it is another text, or if this phone
+     *     cannot keep it
+     */
+    public void putCertificates(String text) {
+        try {
+            TlsIdentity.parse(text);
+        } catch (TlsException fault) {
+            throw new IllegalArgumentException("The file is not used: " + fault.getMessage(), fault);
+        }
+        put(CERTIFICATES, text);
+    }
+
+    private void put(String name, String secret) {
+        String text = secret;
         if (Build.VERSION.SDK_INT >= 23) {
             try {
                 text = ENCRYPTED + Base64.encodeToString(
@@ -80,7 +115,7 @@ public final class PairingStore {
                 throw new IllegalArgumentException("The phone's keystore fails: " + fault, fault);
             }
         }
-        if (!kept.edit().putString(pairing.aircraft, text).commit()) {
+        if (!kept.edit().putString(name, text).commit()) {
             throw new IllegalArgumentException("The phone's storage is full");
         }
     }
@@ -88,6 +123,23 @@ public final class PairingStore {
     /** Removes the key of an aircraft. */
     public void forget(String aircraft) {
         kept.edit().remove(aircraft).commit();
+    }
+
+    public void forgetCertificates() {
+        forget(CERTIFICATES);
+    }
+
+    /** Returns a text, null: there is none. */
+    private String text(String name) throws GeneralSecurityException, IOException {
+        String value = kept.getString(name, null);
+        if (value != null && value.startsWith(ENCRYPTED)) {
+            return decrypted(value.substring(ENCRYPTED.length()));
+        }
+        if (value != null && isInKeystore()) {
+            // The system was older when it was kept.
+            put(name, value);
+        }
+        return value;
     }
 
     private static String decrypted(String value) throws GeneralSecurityException, IOException {
@@ -99,10 +151,5 @@ public final class PairingStore {
         } catch (IllegalArgumentException fault) {
             throw new GeneralSecurityException("not base 64", fault);
         }
-    }
-
-    private static IllegalArgumentException unreadable(String aircraft, Exception fault) {
-        return new IllegalArgumentException(
-                "The key of " + aircraft + " cannot be read: forget it and pair again", fault);
     }
 }

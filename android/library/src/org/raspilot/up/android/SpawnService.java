@@ -32,6 +32,7 @@ public final class SpawnService extends IntentService {
     private static final String PORT = "port";
     private static final String AIRCRAFT = "aircraft";
     private static final String PROFILE = "profile";
+    private static final String IS_TLS = "tls";
     private static final String ANSWER = "answer";
 
     public SpawnService() {
@@ -41,17 +42,19 @@ public final class SpawnService extends IntentService {
     }
 
     /**
-     * Sends a request.
+     * Sends a request, signed by this phone's key of the aircraft if there is one.
      *
+     * @param isTls by TLS with this phone's certificates, or plain
      * @param aircraft the aircraft's name
      * @param profile a ready-made configuration of the runner; empty: none
      * @param answer receives one message with {@link #result}
      */
-    public static void request(Context context, String host, int port, String aircraft,
-            String profile, Messenger answer) {
+    public static void request(Context context, String host, int port, boolean isTls,
+            String aircraft, String profile, Messenger answer) {
         context.startService(new Intent(context, SpawnService.class)
                 .putExtra(HOST, host)
                 .putExtra(PORT, port)
+                .putExtra(IS_TLS, isTls)
                 .putExtra(AIRCRAFT, aircraft)
                 .putExtra(PROFILE, profile)
                 .putExtra(ANSWER, answer));
@@ -59,7 +62,7 @@ public final class SpawnService extends IntentService {
 
     /** Returns the result in a message to the messenger. */
     public static SpawnResult result(Message message) {
-        return SpawnResult.of(message.getData());
+        return (SpawnResult) message.obj;
     }
 
     @Override
@@ -71,7 +74,7 @@ public final class SpawnService extends IntentService {
         reply(answer, run(intent));
     }
 
-    private static SpawnResult run(Intent intent) {
+    private SpawnResult run(Intent intent) {
         SelectorLoop loop = new SelectorLoop("up spawn loop", fault ->
                 Log.e(TAG, "up spawn failed in a call", fault), new SleepClock());
         BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<>(1);
@@ -79,51 +82,51 @@ public final class SpawnService extends IntentService {
             loop.start();
             loop.post(() -> send(intent, loop, results));
             SpawnResult result = results.poll(MAX_S, TimeUnit.SECONDS);
-            return result == null ? SpawnResult.refused("the runner does not answer") : result;
+            return result == null ? new SpawnResult(null, "the runner does not answer") : result;
         } catch (IOException failure) {
-            return SpawnResult.refused(failure.getMessage());
+            return new SpawnResult(null, failure.getMessage());
         } catch (InterruptedException interruption) {
             Thread.currentThread().interrupt();
-            return SpawnResult.refused("the request was interrupted");
+            return new SpawnResult(null, "the request was interrupted");
         } finally {
             loop.stop();
         }
     }
 
-    private static void send(Intent intent, Loop loop, BlockingQueue<SpawnResult> results) {
+    private void send(Intent intent, Loop loop, BlockingQueue<SpawnResult> results) {
         final RunnerClient client;
         try {
-            String profile = intent.getStringExtra(PROFILE);
+            String aircraft = intent.getStringExtra(AIRCRAFT);
+            PairingStore keys = new PairingStore(this);
+            // Secrets do not travel in an intent.
             client = new RunnerClient(loop, intent.getStringExtra(HOST),
-                    intent.getIntExtra(PORT, 0), new RunnerRequest(intent.getStringExtra(AIRCRAFT),
-                            profile == null || profile.isEmpty() ? null : profile, null));
+                    intent.getIntExtra(PORT, 0), intent.getBooleanExtra(IS_TLS, false)
+                            ? keys.certificates() : null,
+                    new RunnerRequest(aircraft, intent.getStringExtra(PROFILE),
+                            keys.get(aircraft)));
         } catch (IllegalArgumentException wrong) {
-            results.add(SpawnResult.refused(wrong.getMessage()));
+            results.add(new SpawnResult(null, wrong.getMessage()));
             return;
         }
         client.find(new DiscoveryListener() {
             @Override
             public void onFound(Endpoint place) {
-                results.add(result(client.lastAnswer(), place));
+                RunnerAnswer answer = client.lastAnswer();
+                results.add(new SpawnResult(answer, answer.error == null ? answer.message
+                        : answer.message + ": " + answer.error));
             }
 
             @Override
-            public void onNotFound(String reason) {
-                results.add(SpawnResult.refused(reason));
+            public void onNotFound(String code, String reason) {
+                results.add(new SpawnResult(null, reason));
             }
         });
     }
 
-    private static SpawnResult result(RunnerAnswer answer, Endpoint place) {
-        String sentence = answer.error == null ? answer.message
-                : answer.message + ": " + answer.error;
-        return SpawnResult.running(answer.isSpawned, sentence, place.toString(),
-                answer.proxyHost, answer.proxyGroundPort);
-    }
-
     private static void reply(Messenger answer, SpawnResult result) {
         Message message = Message.obtain();
-        message.setData(result.toBundle());
+        // In this process: the object itself arrives.
+        message.obj = result;
         try {
             answer.send(message);
         } catch (RemoteException gone) {

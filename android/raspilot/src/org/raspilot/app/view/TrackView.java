@@ -123,11 +123,6 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Returns whether the user has moved the picture. */
-    public boolean isMoved() {
-        return !geometry.isAutomatic();
-    }
-
     public void enlarge() {
         zoomMiddle(BUTTON_FACTOR);
     }

@@ -22,8 +22,9 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** The ground side with lines in the place of a screen. */
 final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaultListener {
-    private final ConsoleOptions options;
+    private ConsoleOptions options;
     private final EventWriter words;
+    private Loop loop;
     private GroundSide ground;
     private GainSet told;
 
@@ -33,7 +34,12 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     }
 
     @Override
-    public void start(Loop loop) {
+    public void start(Loop started) {
+        loop = started;
+        connect();
+    }
+
+    private void connect() {
         CommandExecutor executor = new CommandExecutor(CommandRegistry.builtin(), this);
         ground = new GroundSide(
                 loop, options.settings, new MemoryTokenStore(), executor, this, new Random());
@@ -56,8 +62,14 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
             gains(line.get("gains"), answers);
         } else if (line.containsKey("seat")) {
             seat(line.get("seat"));
+        } else if (line.containsKey("options")) {
+            String given = String.valueOf(line.get("options"));
+            options = ConsoleOptions.read(given.split(" "));
+            ground.stop();
+            words.notice("options", given);
+            connect();
         } else {
-            throw new OptionException("a line has neither 'send' nor 'gains' nor 'seat'");
+            throw new OptionException("a line has neither send, gains, seat nor options");
         }
     }
 
@@ -79,6 +91,8 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         event.put("online", status.isAircraftOnline);
         event.put("role", status.commandRole);
         event.put("security", status.securityText());
+        event.put("tls", status.isTls);
+        event.put("code", status.code);
         event.put("key_fault", status.keyFault);
         event.put("refused", status.counters.refused);
         event.put("tune_in_flight", status.tuneInFlight);

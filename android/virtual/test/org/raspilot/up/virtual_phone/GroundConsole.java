@@ -15,6 +15,7 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  *                                    the newest frame's beacon, as a screen that shows all
  * {"gains": "ask" | "undo" | {"ratePIDs", "stabPIDs", "navPIDs"?}, "tag"?}
  * {"seat": "request" | "release" | {"give": 2}}
+ * {"options": "--proxy ..."}                  connect anew, as if started with these options
  * </pre>
  *
  * <p><b>Lines out.</b>
@@ -23,7 +24,8 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  * {"event": "telemetry", "beacon", "way_ms", "age_ms", "is_stale", "values": {PATH: value or null}}
  *                             every frame, by a handler of the Command (--values: which paths)
  * {"event": "status", "link", "sentence", "seat", "standing", "holder", "asked_by", "online",
- *  "role", "security", "key_fault", "refused", "tune_in_flight", "reason", "rejection"}
+ *  "role", "security", "tls", "code", "key_fault", "refused", "tune_in_flight", "reason",
+ *  "rejection"}
  *                             whenever it changed
  * {"event": "answer", "tag", "name", "outcome", "code", "reason", "round_trip_ms", "data"}
  * {"event": "gains", "flying": {...} or null}            whenever they changed

@@ -1,6 +1,13 @@
 package org.raspilot.up.virtual_phone;
 
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.Paths;
 import java.util.Iterator;
+import org.raspilot.up.tls.TlsException;
+import org.raspilot.up.tls.TlsIdentity;
 
 /** Reads the values of options; each raises OptionException with a sentence. */
 final class OptionParser {
@@ -48,6 +55,26 @@ final class OptionParser {
             // As one that is out of range.
         }
         throw new OptionException(what + " is " + least + " to " + most + ", not '" + value + "'");
+    }
+
+    /** Returns what the files of a folder of {@code up certificates device} hold. */
+    static TlsIdentity tls(String folder) throws OptionException {
+        final StringBuilder text = new StringBuilder();
+        for (String each : new String[] {"ca", "certificate", "key", "revoked"}) {
+            final Path file = Paths.get(folder, each + ".pem");
+            try {
+                if (Files.exists(file)) {
+                    text.append(new String(Files.readAllBytes(file), StandardCharsets.US_ASCII));
+                }
+            } catch (IOException error) {
+                throw new OptionException("--tls " + file + ": " + error);
+            }
+        }
+        try {
+            return TlsIdentity.parse(text.toString());
+        } catch (TlsException error) {
+            throw new OptionException("--tls " + folder + ": " + error.getMessage());
+        }
     }
 
     static OptionException unknown(String name) {

@@ -7,12 +7,14 @@ import java.util.Locale;
 import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.security.Pairing;
 import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /**
  * The options of the virtual phone: {@code --raspberry HOST:GENERAL:ORIENTATION} (default
  * 127.0.0.1:50001:50000), or {@code --discover HOST:PORT}, or {@code --runner HOST:PORT};
- * {@code --aircraft NAME}, {@code --orientation off|tcp|udp}, {@code --orientation-hz N}.
+ * {@code --aircraft NAME}, {@code --pairing TEXT} and {@code --tls FOLDER} for the runner, {@code
+ * --orientation off|tcp|udp}, {@code --orientation-hz N}.
  */
 final class PhoneOptions {
     /** How the airborne side is to be. */
@@ -56,6 +58,12 @@ final class PhoneOptions {
         switch (name) {
             case "--aircraft":
                 settings.aircraft(value);
+                break;
+            case "--pairing":
+                settings.pairing(Pairing.parse(value));
+                break;
+            case "--tls":
+                settings.runnerTls(OptionParser.tls(value));
                 break;
             case "--raspberry":
                 parts = OptionParser.parts(name, value, 3, "HOST:GENERAL:ORIENTATION");
