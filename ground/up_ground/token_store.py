@@ -6,10 +6,10 @@ import contextlib
 import fcntl
 import os
 import re
-import secrets
 from collections.abc import Mapping
 from pathlib import Path
 
+from up.config.atomic_writer import write_atomically
 from up.protocols.proxy_lines import is_token
 from up_ground.settings import Settings
 
@@ -76,12 +76,8 @@ class TokenStore:
         """Keep a token, readable by this user alone."""
         if self._lock is None:
             return
-        fresh = self._path.with_suffix(f".{secrets.token_hex(4)}")
         with contextlib.suppress(OSError):
-            descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-            with os.fdopen(descriptor, "w", encoding="ascii") as file:
-                file.write(token + "\n")
-            fresh.replace(self._path)
+            write_atomically(self._path, f"{token}\n".encode("ascii"), 0o600)
 
     def forget(self) -> None:
         """Drop the token: the seat was given up."""
