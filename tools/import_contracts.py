@@ -35,7 +35,7 @@ PROXY_MAY_USE = {
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
 LAYERS = (
-    "cli | (flight_log) | testing",
+    "cli | (flight_log) | testing | public",
     "program",
     "registrar",
     "cogs",
