@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
-from up.config.atomic_writer import write_atomically
 from up_rig.library import library_path
 
 
@@ -14,6 +14,8 @@ def cache_path(folder: str, name: str) -> Path:
 
 
 def keep(path: Path, content: bytes) -> None:
-    """Write the file; other processes may write the same one now."""
+    """Write the file atomically; other processes may write the same one now."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_atomically(path, content)
+    fresh = path.with_name(f"{path.name}.{os.getpid()}.new")
+    fresh.write_bytes(content)
+    fresh.replace(path)
