@@ -62,10 +62,11 @@ class StatusLine:
     def show(self, text: str) -> None:
         """Show a text, at most once in ``period_s`` and not before ``delay_s``."""
         now_s = self._clock()
-        if now_s >= self._due_s and self.is_terminal:
+        if now_s >= self._due_s:
             self._due_s = now_s + self._period_s
-            self._is_shown = True
-            self._write(f"\r\x1b[K{text}")
+            if self.is_terminal:
+                self._is_shown = True
+                self._write(f"\r\x1b[K{text}")
 
     def clear(self) -> None:
         if self._is_shown:

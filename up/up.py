@@ -20,6 +20,9 @@ from up.context import Context
 from up.log.limits import Limited
 from up.needs import discard_wanted, needed_by
 
+if TYPE_CHECKING:
+    from up.loading.plan import Plan
+
 
 class Vetoes:
     """The reasons against arming: those of this program, and those that others report.
@@ -78,9 +81,6 @@ LOG_INTERVAL_S = 30.0
 """A refused Command or a thread's fault is logged immediately, then as a count per interval."""
 
 _M = TypeVar("_M")
-
-if TYPE_CHECKING:
-    from up.loading.plan import Plan
 
 
 class Up:

@@ -24,6 +24,9 @@ from up_ground.web.sessions import SignInError, cookie_name, token_of
 from up_ground.web.site import GroundResource, make_site, only, refuse
 from up_ground.web.static_files import StaticFiles
 
+if TYPE_CHECKING:
+    from up_ground.web.tiles import TileSource
+
 COOKIE_S = 7 * 86400
 """The browser keeps the cookie over a restart; how long it is valid is decided by the server."""
 
@@ -67,9 +70,6 @@ class SignIn:
         request.setResponseCode(http.NO_CONTENT)
         return b""
 
-
-if TYPE_CHECKING:
-    from up_ground.web.tiles import TileSource
 
 STATIC = Path(__file__).with_name("static")
 

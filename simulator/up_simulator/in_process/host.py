@@ -24,6 +24,9 @@ from up.system.clock import cancel
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.tcp_ports import Connector, TcpPort
 
+if TYPE_CHECKING:
+    from up_simulator.in_process.reactor import SimulatedReactor
+
 HEADER = 28
 MAX_DATAGRAM_BYTES = 65507
 
@@ -89,9 +92,6 @@ def _arrive(network: Any, port: int, packet: bytes, source: tuple[str, int]) -> 
     if listening is not None:
         listening.receive(packet, source)
 
-
-if TYPE_CHECKING:
-    from up_simulator.in_process.reactor import SimulatedReactor
 
 PRUNE_AT = 256
 
