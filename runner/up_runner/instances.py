@@ -12,11 +12,11 @@ from up_runner.instance import Instance
 from up_runner.instance_host import InstanceHost
 from up_runner.instance_machine import State
 from up_runner.instance_state import InstanceState
+from up_runner.key_starts import KeyStarts
 from up_runner.log_maintenance import LogMaintenance
 from up_runner.policy import Policy
 from up_runner.process import Identity, Process, ProcessGone, identity_of
 from up_runner.request import Request
-from up_runner.request_gate import KeyStarts
 from up_runner.response import Problem, Response
 
 FAILURE_CACHE_S = 1.0
