@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.tools import need_tool, unavailable
+from tests.support.tools import need_browser, need_tool, unavailable
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "tests" / "browser"
@@ -22,16 +22,13 @@ ALONE = ("unshare", "--net", "sh", "-c", 'ip link set lo up && exec "$0" "$@"')
 @pytest.fixture(scope="session")
 def modules():
     """See to node, Chromium and the modules of the tests."""
-    node = need_tool("node", "nodejs")
-    need_tool("npm")
-    need_tool("chromium")
+    node = need_browser()
     version = subprocess.run([node, "--version"], capture_output=True, text=True, check=True).stdout
     if int(version.removeprefix("v").split(".")[0]) < OLDEST_NODE:
         unavailable(f"node {version.strip()} is older than {OLDEST_NODE}")
-    for setup in ((ROOT / "tools" / "npm_modules", FOLDER), (ROOT / "tools" / "web_assets",)):
-        done = subprocess.run(setup, capture_output=True, text=True)
-        if done.returncode != 0:
-            unavailable(done.stderr.strip())
+    done = subprocess.run([ROOT / "tools" / "web_assets"], capture_output=True, text=True)
+    if done.returncode != 0:
+        unavailable(done.stderr.strip())
     return node
 
 

@@ -35,7 +35,7 @@ PROXY_MAY_USE = {
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
 LAYERS = (
-    "cli | (flight_log) | testing",
+    "cli | (flight_log) | testing | public",
     "program",
     "registrar",
     "cogs",
@@ -48,7 +48,7 @@ LAYERS = (
     "base_thread_module | base_periodic_module",
     "base_started_module",
     "base_module",
-    "needs | vetoes | mission",
+    "needs | mission",
     "commands | key_ring",
     "cleanup | protocols | context",
     "tls",

@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping
-from typing import Any, Protocol
+import time
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from typing import Any, Protocol, TextIO
 
 from up.errors import Problem, UserError
 from up.fields import printable
@@ -34,6 +36,54 @@ def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
     for text, each in {str(each): each for each in problems}.items():
         line = program_line(text, each.code, each.fields, level) or _shown(f"{head}{text}")
         print(line, file=sys.stderr)  # noqa: T201 - the user's answer
+
+
+class StatusLine:
+    """A line of a terminal (default: stderr) that is rewritten; elsewhere nothing is shown."""
+
+    def __init__(
+        self,
+        stream: TextIO | None = None,
+        *,
+        period_s: float = 0.2,
+        delay_s: float = 0.0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._stream = stream
+        self._period_s = period_s
+        self._clock = clock
+        self._due_s = clock() + delay_s
+        self._is_shown = False
+
+    @property
+    def is_terminal(self) -> bool:
+        return (self._stream or sys.stderr).isatty()
+
+    def show(self, text: str) -> None:
+        """Show a text, at most once in ``period_s`` and not before ``delay_s``."""
+        now_s = self._clock()
+        if now_s >= self._due_s:
+            self._due_s = now_s + self._period_s
+            if self.is_terminal:
+                self._is_shown = True
+                self._write(f"\r\x1b[K{text}")
+
+    def clear(self) -> None:
+        if self._is_shown:
+            self._is_shown = False
+            self._write("\r\x1b[K")
+
+    def print(self, text: str) -> None:
+        """Print a line that stays, on any stream."""
+        self.clear()
+        self._write(f"{text}\n")
+
+    def _write(self, text: str) -> None:
+        # The terminal may be closed already.
+        with suppress(OSError):
+            stream = self._stream or sys.stderr
+            stream.write(text)
+            stream.flush()
 
 
 def check_format() -> None:

@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import argparse
-import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import OptionParser, add_json_option
-from up.cli.server_parser import port_number
+from up.cli.option_parser import (
+    OptionParser,
+    add_json_option,
+    bounded_number,
+    port_number,
+    whole_number,
+)
 from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
 from up_ground.key_store import KeyStore
 from up_ground.mission_verb import add_mission
-from up_ground.page_options import add_page_options
+from up_ground.page_options import add_page_options, add_replay
 from up_ground.pair import add_pair
-from up_ground.replay.verb import add_replay
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 from up_ground.token_store import state_folder
 
-_MAX_S = 1e7
+_COUNT, _SECONDS = whole_number(1, 999_999_999), bounded_number(0.001, 1e7, "s")
 
 _EPILOG = """\
 examples
@@ -138,7 +141,7 @@ def _add_connection(
     add("--host", "the Ground Station Proxy, or the aircraft itself", host, type=_host)
     port = given.get("UP_GROUND_PORT") or DEFAULT_PORT
     text = "its port: 3004 of a proxy, 50002 of an aircraft"
-    add("--port", text, port, type=_port, metavar="N")
+    add("--port", text, port, type=port_number, metavar="N")
     if aircraft:
         name = given.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT
         add("--aircraft", "which aircraft of the proxy", name, type=_aircraft, metavar="NAME")
@@ -165,9 +168,9 @@ def _add_watch(verbs: Any) -> None:
     form.add_argument("--once", action="store_true", help="print one picture and exit")
     form.add_argument("--json", action="store_true", help="print the telemetry messages")
     form.add_argument("--plain", action="store_true", help="one line a second, on a terminal too")
-    watch.add_argument("--count", type=_count, metavar="N", help="stop after N lines")
+    watch.add_argument("--count", type=_COUNT, metavar="N", help="stop after N lines")
     watch.add_argument(
-        "--for", type=_seconds, dest="for_s", metavar="SECONDS", help="stop after this time"
+        "--for", type=_SECONDS, dest="for_s", metavar="SECONDS", help="stop after this time"
     )
     watch.add_argument(
         "--seat",
@@ -200,13 +203,13 @@ def _add_control(verbs: Any) -> None:
     request = actions.add_parser("request", help="request control of its owner; free: granted")
     request.add_argument(
         "--wait",
-        type=_seconds,
+        type=_SECONDS,
         default=30.0,
         metavar="SECONDS",
         help="how long to request (default %(default)g)",
     )
     give = actions.add_parser("give", help="hand control to a listener")
-    give.add_argument("to", type=_count, metavar="N", help="the listener's number")
+    give.add_argument("to", type=_COUNT, metavar="N", help="the listener's number")
     actions.add_parser("release", help="release control")
     for name, action in actions.choices.items():
         action.set_defaults(parser=action, action=name)
@@ -227,10 +230,6 @@ def _add_serve(verbs: Any) -> None:
     add_page_options(serve)
 
 
-def _port(text: str) -> int:
-    return port_number(text, minimum=1)
-
-
 def _aircraft(text: str) -> str:
     if not AIRCRAFT_NAME.fullmatch(text):
         raise argparse.ArgumentTypeError(
@@ -243,23 +242,3 @@ def _host(text: str) -> str:
     if not text.isprintable() or not text or " " in text or len(text) > 253:
         raise argparse.ArgumentTypeError(f"{text[:60]!r} cannot be a host")
     return text
-
-
-def _count(text: str) -> int:
-    count = int(text) if text.isascii() and text.isdigit() and len(text) < 10 else 0
-    if count < 1:
-        message = f"must be a whole number from 1 to 999999999, not {text[:60]!r}"
-        raise argparse.ArgumentTypeError(message)
-    return count
-
-
-def _seconds(text: str) -> float:
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not 0 < seconds <= _MAX_S:
-        raise argparse.ArgumentTypeError(
-            f"must be above 0 and at most {_MAX_S:.0f} seconds, not {text[:60]!r}"
-        )
-    return seconds

@@ -16,6 +16,7 @@ from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import BaseCommand, InvalidCommandError, constraint_of
 from up.commands.command_registry import CommandRegistry, DuplicateCommandError
 from up.commands.roles import Role
+from up.flight_log.command_schema import sentence_of
 
 # An aircraft answers with them; a ground has nothing to answer.
 _ANSWERS = ("up.ack", "up.nack")
@@ -114,7 +115,7 @@ def describe(cls: type[BaseCommand]) -> Iterator[str]:
 
 def about(cls: type[BaseCommand]) -> str:
     """Return the purpose of a Command, one sentence."""
-    return _sentence(cls.__doc__)
+    return sentence_of(cls.__doc__)
 
 
 def title_of(cls: type[BaseCommand] | None, name: str, data: Mapping[str, Any]) -> str:
@@ -147,10 +148,6 @@ def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
     except InvalidCommandError as error:
         return str(error)
     return ""
-
-
-def _sentence(text: str | None) -> str:
-    return " ".join((text or "").split("\n\n")[0].replace("``", "").split())
 
 
 def _cog_commands(problems: list[str]) -> Iterator[type[BaseCommand]]:

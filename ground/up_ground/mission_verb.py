@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import add_json_option
+from up.cli.option_parser import add_json_option, whole_number
 from up.cli.verb import add_verb
 from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION, PLANS
 
@@ -54,7 +53,12 @@ def add_mission(verbs: Any) -> None:
                 default=(FENCE, MISSION), help=f"only the {plan}",
             )  # fmt: skip
     start = actions.add_parser("start", help="select the flight mode MISSION")
-    start.add_argument("--item", type=_item, metavar="N", help="begin at this item; the first is 1")
+    start.add_argument(
+        "--item",
+        type=whole_number(1, MAX_ITEMS[MISSION]),
+        metavar="N",
+        help="begin at this item; the first is 1",
+    )
     status = actions.add_parser("status", help="show the plans in use and the next item")
     clear = actions.add_parser("clear", help="remove the mission or the fence of the aircraft")
     clear.add_argument("plans", choices=PLANS, type=str, metavar="mission|fence")
@@ -62,11 +66,3 @@ def add_mission(verbs: Any) -> None:
         add_json_option(action)
     for name, action in actions.choices.items():
         action.set_defaults(parser=action, action=name)
-
-
-def _item(text: str) -> int:
-    number = int(text) if text.isascii() and text.isdigit() and len(text) < 5 else 0
-    if not 1 <= number <= MAX_ITEMS[MISSION]:
-        limit = MAX_ITEMS[MISSION]
-        raise argparse.ArgumentTypeError(f"must be an item from 1 to {limit}, not {text[:60]!r}")
-    return number

@@ -7,6 +7,7 @@ from collections import deque
 from typing import Any
 
 from up.commands.telemetry_schema import LATE_FOR_S, LATE_S, READINGS, SILENT_S
+from up.flight_log.json_message import value_at
 from up.protocols.general_message import GeneralMessage
 from up_ground.one_way_delay import OneWayDelayEstimator
 from up_ground.sanitize_text import sanitize_text
@@ -52,11 +53,11 @@ class Telemetry:
             gap = message.beacon - self.beacon
             if abs(gap) > _MAX_BEACON_STEP:
                 self._delay.reset()
-        stamp_ms = _number(_at(message.data, ("system", "clock_ms")))
+        stamp_ms = _number(value_at(message.data, ("system", "clock_ms")))
         held_s = self._delay.update(stamp_ms, now_s)
         if self._is_superseded(stamp_ms, held_s, now_s):
             return False
-        left_out = int(_number(_at(message.data, ("uplink", "left_out"))) or 0)
+        left_out = int(_number(value_at(message.data, ("uplink", "left_out"))) or 0)
         lost = gap - 1 - max(0, left_out - self._left_out)
         if 0 < lost <= _MAX_GAP:
             self.lost += lost
@@ -141,37 +142,29 @@ class Telemetry:
 
     def number(self, *path: str) -> float | None:
         """Return a finite number at that key path; None if absent, null or of another type."""
-        return _number(_at(self.data, path))
+        return _number(value_at(self.data, path))
 
     def flag(self, *path: str) -> bool | None:
         """Return true or false at that key path; None: unknown."""
-        found = _at(self.data, path)
+        found = value_at(self.data, path)
         return found if isinstance(found, bool) else None
 
     def text(self, *path: str, limit: int = 40) -> str | None:
         """Return a text at that key path, safe for a terminal; None: unknown."""
-        found = _at(self.data, path)
+        found = value_at(self.data, path)
         return sanitize_text(found, limit) if isinstance(found, str) else None
 
     def is_null(self, *path: str) -> bool:
         """Return whether the aircraft reports null at that key path."""
-        above = _at(self.data, path[:-1])
+        above = value_at(self.data, path[:-1])
         return isinstance(above, dict) and above.get(path[-1], "") is None
 
     def texts(self, *path: str, limit: int = 80) -> list[str] | None:
         """Return a list of texts, safe for a terminal; None: unknown."""
-        found = _at(self.data, path)
+        found = value_at(self.data, path)
         if not isinstance(found, list):
             return None
         return [sanitize_text(each, limit) for each in found[:32] if isinstance(each, str)]
-
-
-def _at(found: Any, path: tuple[str, ...]) -> Any:
-    for key in path:
-        if not isinstance(found, dict):
-            return None
-        found = found.get(key)
-    return found
 
 
 def _number(found: Any) -> float | None:

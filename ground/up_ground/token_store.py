@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import re
 import secrets
@@ -11,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from up.protocols.proxy_lines import is_token
+from up.system.pid_file import PidFile, PidFileHeld
 from up_ground.settings import Settings
 
 STATE_VARIABLE = "UP_GROUND_STATE"
@@ -37,7 +37,7 @@ class TokenStore:
     def __init__(self, folder: Path, settings: Settings) -> None:
         name = f"{settings.host}_{settings.port}_{settings.aircraft}"
         self._path = folder / (_UNSAFE.sub("_", name)[:200] + ".token")
-        self._lock: int | None = None
+        self._lock: PidFile | None = None
 
     @property
     def path(self) -> Path:
@@ -47,17 +47,11 @@ class TokenStore:
         """Reserve the token for this program; False if another one has it or storing fails."""
         if self._lock is not None:
             return True
+        lock = PidFile(self._path.with_suffix(".lock"))
         try:
             self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            lock = os.open(
-                self._path.with_suffix(".lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600
-            )
-        except OSError:
-            return False
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            os.close(lock)
+            lock.take()
+        except (PidFileHeld, OSError):
             return False
         self._lock = lock
         return True
@@ -77,6 +71,7 @@ class TokenStore:
         if self._lock is None:
             return
         fresh = self._path.with_suffix(f".{secrets.token_hex(4)}")
+        # Without a sync, which would block the link: a lost token costs little.
         with contextlib.suppress(OSError):
             descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
             with os.fdopen(descriptor, "w", encoding="ascii") as file:
@@ -91,5 +86,5 @@ class TokenStore:
 
     def close(self) -> None:
         if self._lock is not None:
-            os.close(self._lock)
+            self._lock.release()
             self._lock = None

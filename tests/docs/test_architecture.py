@@ -29,7 +29,7 @@ from tests.ground.aircraft import Aircraft as Kite
 from tests.ground.web.page import Page, Serve
 from tests.proxy.program import Program
 from tests.support.reactor import reactor, run_in_reactor, until
-from tests.support.tools import need_tool, unavailable
+from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY
 from up.commands.servo_command import ServoCommand
 from up_ground.catalogue import Catalogue
@@ -278,13 +278,7 @@ def test_an_attitude_passes_at_most_28_files_on_its_way_to_the_pixel():
 
 
 def test_what_runs_in_the_browser(proxy, tmp_path):
-    node = need_tool("node", "nodejs")
-    need_tool("npm")
-    need_tool("chromium")
-    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
-    installed = subprocess.run(modules, capture_output=True, text=True)
-    if installed.returncode != 0:
-        unavailable(installed.stderr.strip())
+    node = need_browser()
     with Serve(tmp_path, proxy.ground_port) as server:
         address = f"http://127.0.0.1:{server.port}/"
         program = Path(__file__).with_name("architecture_page.mjs")

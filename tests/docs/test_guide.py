@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from tests.docs.flying import LIMIT_S, copy_of_the_tree, files_of, flying, lines_of
-from tests.support.tools import need_tool, unavailable
+from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 from tests.support.waiting import until
 from up_flightlog.read.flight_log import FlightLog
@@ -41,13 +41,7 @@ def flight(tmp_path_factory):
 
 
 def test_the_steps_in_the_page(flight):
-    node = need_tool("node", "nodejs")
-    need_tool("npm")
-    need_tool("chromium")
-    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
-    installed = subprocess.run(modules, capture_output=True, text=True)
-    if installed.returncode != 0:
-        unavailable(installed.stderr.strip())
+    node = need_browser()
     # Of all proxies on this machine only this flight's.
     proxy = _child(flight.process.pid, "up_proxy.main")
     assert lines_of(PAGE, "cut") == [f"kill -STOP $(cat {PROXY})"]

@@ -16,7 +16,7 @@ from tests.ground.aircraft import Aircraft, frame
 from tests.ground.web.page import Serve
 from tests.proxy.program import Program as Proxy
 from tests.support.application import plan_of, write_application
-from tests.support.tools import need_tool, unavailable
+from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.location_command import LocationCommand
@@ -61,13 +61,7 @@ def plane(tmp_path):
 def test_the_instrument_shows_the_modules_value(tmp_path, monkeypatch):
     text = (REPOSITORY / "docs/how-to/module.md").read_text()
     file, script = re.search(r"<!-- script: (\S+) -->\n```js\n(.*?)```", text, re.DOTALL).groups()
-    node = need_tool("node", "nodejs")
-    need_tool("npm")
-    need_tool("chromium")
-    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
-    installed = subprocess.run(modules, capture_output=True, text=True)
-    if installed.returncode != 0:
-        unavailable(installed.stderr.strip())
+    node = need_browser()
     # The three places, in a copy that is served instead.
     copy = tmp_path / "copy" / "up_ground"
     shutil.copytree(REPOSITORY / "ground" / "up_ground", copy)

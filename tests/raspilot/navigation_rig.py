@@ -8,6 +8,7 @@ from raspilot.flight_modes.circle import CircleMode
 from raspilot.flight_modes.glide import Glide
 from raspilot.flight_modes.guided import Guided
 from raspilot.flight_modes.loiter import Loiter
+from raspilot.flight_modes.return_home import Return
 from tests.raspilot.flight_controller_rig import BOARD, Rig
 from up.base_module import BaseModule
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
@@ -112,3 +113,13 @@ class NavigationRig(Rig):
 
 def refusal(got):
     return got[0].value.detail
+
+
+def flying_rig(tmp_path):
+    """Return an aircraft in FBW, armed and in flight, that has the flight mode RETURN."""
+    made = NavigationRig(tmp_path, modes=(Return,))
+    made.state("FBW", armed=False, in_flight=False)
+    made.setpoint()
+    made.state("FBW")
+    made.setpoint()
+    return made

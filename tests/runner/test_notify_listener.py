@@ -18,13 +18,16 @@ def count_descriptors():
     return len(os.listdir("/proc/self/fd"))  # noqa: PTH208
 
 
+def listening(folder):
+    received = []
+    listener = NotifyListener(reactor, folder / "notify", lambda *each: received.append(each))
+    listener.open()
+    return listener, received
+
+
 def test_it_knows_the_sender(short_path):
     async def body():
-        received = []
-        listener = NotifyListener(
-            reactor, short_path / "notify", lambda *each: received.append(each)
-        )
-        listener.open()
+        listener, received = listening(short_path)
         Notifier(str(listener.path)).ready("runs")
         await until(lambda: received)
         assert received == [(os.getpid(), Notification(ready=True, status="runs"))]
@@ -58,11 +61,7 @@ def test_the_next_runners_socket_takes_over_at_the_same_path(short_path):
 
 def test_drained_it_receives_immediately(short_path):
     async def body():
-        received = []
-        listener = NotifyListener(
-            reactor, short_path / "notify", lambda *each: received.append(each)
-        )
-        listener.open()
+        listener, received = listening(short_path)
         notifier = Notifier(str(listener.path))
         for _ in range(5):
             notifier.watchdog()
@@ -76,11 +75,7 @@ def test_drained_it_receives_immediately(short_path):
 
 def test_received_descriptors_are_closed(short_path):
     async def body():
-        received = []
-        listener = NotifyListener(
-            reactor, short_path / "notify", lambda *each: received.append(each)
-        )
-        listener.open()
+        listener, received = listening(short_path)
         before = count_descriptors()
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as line:
             for _ in range(20):
@@ -100,11 +95,7 @@ def test_received_descriptors_are_closed(short_path):
 
 def test_a_datagram_that_is_too_long_is_dropped_and_counted(short_path):
     async def body():
-        received = []
-        listener = NotifyListener(
-            reactor, short_path / "notify", lambda *each: received.append(each)
-        )
-        listener.open()
+        listener, received = listening(short_path)
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as line:
             line.sendto(b"READY=1\n" + b"x" * 10_000, str(listener.path))
         listener.drain()

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 import shutil
+import subprocess
 
 import pytest
+
+from tests.support.virtual_environment import REPOSITORY
 
 
 def need_tool(name: str, package: str = "") -> str:
@@ -15,6 +18,18 @@ def need_tool(name: str, package: str = "") -> str:
         unavailable(f"{name} is not installed (Debian package {package or name})")
     assert path is not None
     return path
+
+
+def need_browser() -> str:
+    """Return the path of Node; its modules of the browser's tests and Chromium are there, too."""
+    node = need_tool("node", "nodejs")
+    need_tool("npm")
+    need_tool("chromium")
+    modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
+    installed = subprocess.run(modules, capture_output=True, text=True, check=False)
+    if installed.returncode != 0:
+        unavailable(installed.stderr.strip())
+    return node
 
 
 def unavailable(reason: str) -> None:

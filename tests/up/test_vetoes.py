@@ -1,6 +1,6 @@
 """What forbids arming."""
 
-from up.vetoes import Vetoes
+from up.up import Vetoes
 
 
 def test_set_clear_and_who_is_told():

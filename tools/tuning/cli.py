@@ -25,10 +25,10 @@ from tools.tuning.response_picture import draw_tuning
 from tools.tuning.trial import TrialError
 from tools.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
 from up.cli.cli_error import CliError, UsageError
-from up.cli.option_parser import OptionParser
 from up.commands.gains import Gains, GainSet
 from up.config.atomic_writer import write_atomically
 from up.flight_controller.pids_file import PIDS, gain_set_of
+from up.output import StatusLine
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.chart import Mark
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
@@ -40,7 +40,7 @@ from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder
-from up_simulator.verbs.catalogue import HELD, NOT_HELD
+from up_simulator.verbs.catalogue import HELD, NOT_HELD, verb_parser
 
 FOLDER = Path("run") / "tuning"
 EPILOG = """\
@@ -64,6 +64,9 @@ _SENTENCES = (
 )
 
 
+_LINE = StatusLine()
+
+
 def main(arguments: Sequence[str]) -> int:
     """Tune, or analyse a log; return the exit status. Raises ``UsageError`` and OSError."""
     options = _parser().parse_args(arguments)
@@ -80,12 +83,10 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = OptionParser(
-        prog="up-sim tune",
-        allow_abbrev=False,
-        description="Flies steps with many gains, measures the margins of the loop, and"
-        " proposes a set.",
-        epilog=EPILOG,
+    parser = verb_parser(
+        "tune",
+        "Flies steps with many gains, measures the margins of the loop, and proposes a set.",
+        EPILOG,
     )
     parser.add_argument(
         "--airframe", default=DEFAULT_AIRFRAME, help="name, folder or file (default: %(default)s)"
@@ -143,7 +144,7 @@ def _tune(options: argparse.Namespace) -> int:
         axes: list[Axis] = [options.axis] if options.axis else ["roll", "pitch", "yaw"]
         gains, pictures, is_good = _all_axes(options, bench, gains, axes, workers)
         air = try_rough_air(bench, was, gains, axes, workers, is_quick=options.quick)
-    _clear()
+    _LINE.clear()
     _out("")
     for line in rough_lines(air):
         _out(line)
@@ -185,7 +186,7 @@ def _all_axes(
             path = options.pictures / f"{bench.airframe.name}-{axis}.png"
             if _is_drawn(partial(draw_tuning, tuning, title=title), path):
                 pictures.append(path)
-        _clear()
+        _LINE.clear()
         for line in lines:
             _out(line)
     return gains, pictures, is_good
@@ -258,20 +259,11 @@ def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:
 
 
 def _progress(done: int, asked: int) -> None:
-    if sys.stderr.isatty():
-        sys.stderr.write(f"\r{done} of {asked} flights ")
-        sys.stderr.flush()
-
-
-def _clear() -> None:
-    if sys.stderr.isatty():
-        sys.stderr.write("\r" + " " * 30 + "\r")
-        sys.stderr.flush()
+    _LINE.show(f"{done} of {asked} flights")
 
 
 def _note(text: str, /, *, code: str = "", **_fields: object) -> None:
-    _clear()
-    sys.stderr.write(f"{text}\n")
+    _LINE.print(text)
 
 
 def _out(line: str) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import functools
-from collections.abc import Iterable
+import math
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -30,6 +31,38 @@ def add_defaults_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--defaults", action="store_true", help="use the defaults if no configuration file exists"
     )
+
+
+def whole_number(minimum: int, maximum: int) -> Callable[[str], int]:
+    """Return the type of an option whose value is a whole number within bounds."""
+
+    def read(text: str) -> int:
+        is_whole = text.isascii() and text.isdigit() and len(text) <= len(str(maximum))
+        if not is_whole or not minimum <= int(text) <= maximum:
+            bounds = f"from {minimum} to {maximum}"
+            raise argparse.ArgumentTypeError(f"must be a whole number {bounds}, not {text[:60]!r}")
+        return int(text)
+
+    return read
+
+
+def bounded_number(minimum: float, maximum: float, unit: str) -> Callable[[str], float]:
+    """Return the type of an option whose value is a number within bounds."""
+
+    def read(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not minimum <= value <= maximum:
+            bounds = f"from {minimum:g} to {maximum:g} {unit}"
+            raise argparse.ArgumentTypeError(f"must be {bounds}, not {text[:60]!r}")
+        return value
+
+    return read
+
+
+port_number = whole_number(1, 65535)
 
 
 class OptionParser(argparse.ArgumentParser):

@@ -7,7 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import OptionParser, add_defaults_option, add_json_option
+from up.cli.option_parser import (
+    OptionParser,
+    add_defaults_option,
+    add_json_option,
+    whole_number,
+)
 from up.cli.plugin_verbs import UP_VERBS, add_plugin_verbs, verb_of
 from up.cli.verb import add_verb
 from up.mode import Mode
@@ -203,16 +208,11 @@ def _add_certificates(verbs: Any) -> None:
             action.add_argument("names", metavar="NAME", nargs="*", help="name of a device")
         if name in ("device", "renew"):
             text = "validity (default: %(default)s)"
-            action.add_argument("--days", type=_days, default=825, metavar="N", help=text)
+            action.add_argument(
+                "--days", type=whole_number(1, 3650), default=825, metavar="N", help=text
+            )
         if name == "list":
             add_json_option(action)
-
-
-def _days(text: str) -> int:
-    days = int(text) if text.isascii() and text.isdigit() and len(text) < 5 else 0
-    if not 1 <= days <= 3650:
-        raise argparse.ArgumentTypeError(f"a validity is 1 to 3650 days, not {text[:60]!r}")
-    return days
 
 
 def _add_keys(verbs: Any) -> None:

@@ -8,7 +8,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import EXIT_USAGE, OptionParser, add_defaults_option
+from up.cli.option_parser import EXIT_USAGE, OptionParser, add_defaults_option, whole_number
 from up.config import ConfigFile, no_configuration
 from up.errors import UserError
 from up.output import print_problems
@@ -26,7 +26,7 @@ class ServerParser(OptionParser):
         add_defaults_option(self)
         for option in ports:
             self.add_argument(
-                option, type=port_number, metavar="N", help="TCP port; 0: any free port"
+                option, type=whole_number(0, 65535), metavar="N", help="TCP port; 0: any free port"
             )
         self.add_argument("--log-level", choices=("debug", "info", "warning", "error"))
         self.add_argument("--version", action="version", version=f"{self.prog} {VERSION}")
@@ -55,13 +55,3 @@ class ServerParser(OptionParser):
         given = {name: value for name, value in vars(options).items() if value is not None}
         keys = {each.name for each in fields(config)} & set(given)
         return options, folder, replace(config, **{name: given[name] for name in keys})
-
-
-def port_number(text: str, minimum: int = 0) -> int:
-    """Return a TCP port; raises ArgumentTypeError."""
-    port = int(text) if text.isascii() and text.isdigit() and len(text) < 6 else -1
-    if not minimum <= port <= 65535:
-        raise argparse.ArgumentTypeError(
-            f"a port is a number from {minimum} to 65535, not {text[:60]!r}"
-        )
-    return port

@@ -41,7 +41,7 @@ def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
     return {
         "$schema": _DIALECT,
         "title": cls.NAME,
-        "description": _sentence(cls.__doc__),
+        "description": sentence_of(cls.__doc__),
         "type": "object",
         "properties": properties,
         "required": required,
@@ -68,5 +68,6 @@ def _items_of(hint: Any) -> Iterator[Any]:
             yield typing.get_args(each)[0]
 
 
-def _sentence(text: str | None) -> str:
+def sentence_of(text: str | None) -> str:
+    """Return the first paragraph of a docstring in one line."""
     return " ".join((text or "").split("\n\n")[0].replace("``", "").split())

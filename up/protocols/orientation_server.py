@@ -45,15 +45,8 @@ class OrientationCounters:
     too_many: int = 0
 
 
-class OrientationFactory(Factory):
-    """The TCP side: a connection is the source until it closes or is silent for 1 s.
-
-    `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
-    source and the reason. A replaced connection is reported as lost before the new one connects.
-    `permits` returns whether a host may be a source.
-    """
-
-    noisy = False
+class _OrientationInput:
+    """What the TCP and the UDP side have in common: the callbacks, the rate, the counters."""
 
     def __init__(
         self,
@@ -67,13 +60,31 @@ class OrientationFactory(Factory):
     ) -> None:
         self.counters = counters or OrientationCounters()
         self._permits = permits
-        self.on_orientation = on_orientation
         self._clock = clock
         self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
         self._heard_s = 0.0
+        self._on_orientation = on_orientation
         self._on_connected = on_connected
         self._on_lost = on_lost
-        self._current: _OrientationConnection | None = None
+
+    def _deliver(self, frame: OrientationFrame, source: str) -> None:
+        if self._bucket.take():
+            self.counters.frames += 1
+            self._on_orientation(frame, source)
+        else:
+            self.counters.too_many += 1
+
+
+class OrientationFactory(_OrientationInput, Factory):
+    """The TCP side: a connection is the source until it closes or is silent for 1 s.
+
+    `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
+    source and the reason. A replaced connection is reported as lost before the new one connects.
+    `permits` returns whether a host may be a source.
+    """
+
+    noisy = False
+    _current: _OrientationConnection | None = None
 
     @property
     def source(self) -> str:
@@ -101,11 +112,7 @@ class OrientationFactory(Factory):
         self._heard_s = self._clock.seconds()
         self.counters.too_many += max(0, len(frames) - MAX_BURST)
         for values in frames[-MAX_BURST:]:
-            if self._bucket.take():
-                self.counters.frames += 1
-                self.on_orientation(OrientationFrame._make(values), source)
-            else:
-                self.counters.too_many += 1
+            self._deliver(OrientationFrame._make(values), source)
 
     def lost(self, connection: _OrientationConnection, why: str) -> None:
         """Remove `connection` if it is the source."""
@@ -151,35 +158,16 @@ class _OrientationConnection(Protocol):
         self.transport.abortConnection()
 
 
-class OrientationDatagrams(DatagramProtocol):
+class OrientationDatagrams(_OrientationInput, DatagramProtocol):
     """The UDP side: the last address received from, until it is silent for 1 s.
 
     The callbacks are those of `OrientationFactory`. Only a valid frame makes or keeps a source.
     """
 
     noisy = False
-
-    def __init__(
-        self,
-        clock: Clock,
-        *,
-        on_orientation: OnOrientation,
-        on_connected: OnSource,
-        on_lost: OnSourceLost,
-        permits: Permits = lambda host: True,
-        counters: OrientationCounters | None = None,
-    ) -> None:
-        self.counters = counters or OrientationCounters()
-        self._permits = permits
-        self._clock = clock
-        self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
-        self._on_orientation = on_orientation
-        self._on_connected = on_connected
-        self._on_lost = on_lost
-        self._address: Any = None
-        self._source = ""
-        self._heard_s = 0.0
-        self._timer: Timer | None = None
+    _address: Any = None
+    _source = ""
+    _timer: Timer | None = None
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
         if not self._permits(addr[0]):
@@ -199,11 +187,7 @@ class OrientationDatagrams(DatagramProtocol):
             self._source = f"{addr[0]}:{addr[1]}"
             self._timer = self._clock.callLater(TAKEOVER_SILENCE_S, self._check_silence)
             self._on_connected(self._source)
-        if self._bucket.take():
-            self.counters.frames += 1
-            self._on_orientation(frame, self._source)
-        else:
-            self.counters.too_many += 1
+        self._deliver(frame, self._source)
 
     @property
     def source(self) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, cast
 
-from up.cli.option_parser import OptionParser, add_json_option
+from up.cli.option_parser import OptionParser, add_json_option, bounded_number
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
 
@@ -140,7 +140,7 @@ def _add_export(verbs: Any) -> None:
     )
     export.add_argument(
         "--rate",
-        type=_rate,
+        type=bounded_number(0.01, 1000, "Hz"),
         metavar="HZ",
         help="csv: rows per second of one table (default: 10)",
     )
@@ -178,13 +178,3 @@ def _place(values: argparse.Namespace) -> Path:
     from up_flightlog.cli.open_flight import flights_folder
 
     return flights_folder(values)
-
-
-def _rate(text: str) -> float:
-    try:
-        rate_hz = float(text)
-    except ValueError:
-        rate_hz = 0.0
-    if not 0.01 <= rate_hz <= 1000:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a rate between 0.01 and 1000 Hz")
-    return rate_hz

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Iterable, Sequence
 from typing import Self, TextIO
 
 from up.fields import printable
+from up.output import StatusLine
 
 _DELAY_S = 0.5
-_PERIOD_S = 0.1
 
 
 def echo(text: str = "") -> None:
@@ -49,25 +48,14 @@ class Progress:
     def __init__(self, text: str, count: int, stream: TextIO | None = None) -> None:
         self._text = text
         self._count = count
-        self._stream = stream or sys.stderr
-        self._is_terminal = self._stream.isatty()
-        self._due_s = time.monotonic() + _DELAY_S
-        self._is_shown = False
+        self._line = StatusLine(stream, period_s=0.1, delay_s=_DELAY_S)
 
     def update(self, number: int) -> None:
         """Report the current item; the first is 1."""
-        if self._is_terminal and time.monotonic() >= self._due_s:
-            self._due_s = time.monotonic() + _PERIOD_S
-            self._is_shown = True
-            self._write(f"\r{self._text} {number} of {self._count}")
+        self._line.show(f"{self._text} {number} of {self._count}")
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *error: object) -> None:
-        if self._is_shown:
-            self._write("\r\x1b[K")
-
-    def _write(self, text: str) -> None:
-        self._stream.write(text)
-        self._stream.flush()
+        self._line.clear()

@@ -10,35 +10,17 @@ from up_simulator.aircraft.recorded_flight import COLUMNS
 
 TOPIC = "simulator.truth"
 PERIOD_S = 0.05
+_FIELDS = {"ground_speed_m_s": "speed_m_s", "vertical_speed_m_s": "climb_m_s"}
 NAMES = {
-    "time_s": "time_s",
-    "roll_deg": "roll_deg",
-    "pitch_deg": "pitch_deg",
-    "yaw_deg": "yaw_deg",
-    "roll_rate_deg_s": "roll_rate_deg_s",
-    "pitch_rate_deg_s": "pitch_rate_deg_s",
-    "yaw_rate_deg_s": "yaw_rate_deg_s",
-    "latitude_deg": "latitude_deg",
-    "longitude_deg": "longitude_deg",
-    "altitude_m": "altitude_m",
-    "height_m": "height_m",
-    "north_m": "north_m",
-    "east_m": "east_m",
-    "airspeed_m_s": "airspeed_m_s",
-    "ground_speed_m_s": "speed_m_s",
-    "track_deg": "track_deg",
-    "vertical_speed_m_s": "climb_m_s",
-    "wind_north_m_s": "wind_north_m_s",
-    "wind_east_m_s": "wind_east_m_s",
-    "wind_down_m_s": "wind_down_m_s",
-    "alpha_deg": "alpha_deg",
-    "sideslip_deg": "sideslip_deg",
-    "load_factor_g": "load_factor_g",
-    "motor_rpm": "motor_rpm",
-    "motor_w": "motor_w",
-    "battery_v": "battery_v",
-    "battery_percent": "battery_percent",
-}
+    name: _FIELDS.get(name, name)
+    for name in (
+        "time_s", "roll_deg", "pitch_deg", "yaw_deg", "roll_rate_deg_s", "pitch_rate_deg_s",
+        "yaw_rate_deg_s", "latitude_deg", "longitude_deg", "altitude_m", "height_m", "north_m",
+        "east_m", "airspeed_m_s", "ground_speed_m_s", "track_deg", "vertical_speed_m_s",
+        "wind_north_m_s", "wind_east_m_s", "wind_down_m_s", "alpha_deg", "sideslip_deg",
+        "load_factor_g", "motor_rpm", "motor_w", "battery_v", "battery_percent",
+    )
+}  # fmt: skip
 """The name of each value in the log, and in a ``FlightState``."""
 RECORDED_NAMES = {name: field for name, field in NAMES.items() if field in COLUMNS}
 """Those that a recorded flight knows."""

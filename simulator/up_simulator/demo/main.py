@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import argparse
 import fcntl
-import math
 import signal
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from up.cli.option_parser import EXIT_USAGE as WRONG_INPUT
-from up.cli.option_parser import OptionParser
+from up.cli.option_parser import OptionParser, bounded_number
 from up.errors import UserError
 from up.output import print_problems
 from up_ground.web.listen_address import parse_listen
@@ -144,7 +143,9 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--plain", action="store_true", help="fly without end-to-end keys")
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/demo)")
     parser.add_argument(
-        "--seconds", type=_seconds, help="stop after this many seconds; default: at Ctrl-C"
+        "--seconds",
+        type=bounded_number(0.001, 1e7, "s"),
+        help="stop after this many seconds; default: at Ctrl-C",
     )
     parser.add_argument("--no-watch", action="store_true", help="do not show the telemetry")
     parser.add_argument("--no-page", action="store_true", help="no ground station for a browser")
@@ -172,13 +173,6 @@ def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
         return text
 
     return check
-
-
-def _seconds(text: str) -> float:
-    seconds = float(text)
-    if not 0 < seconds < math.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds above 0")
-    return seconds
 
 
 def _radio(text: str) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from up.cli.option_parser import OptionParser
+from up.cli.option_parser import bounded_number, port_number
 from up_ground.key_store import KeyStore
 from up_ground.token_store import state_folder
 from up_rig.sticks import StickMove, SticksError, read_sticks
@@ -18,6 +18,7 @@ from up_simulator.harness.uplink import UplinkError, read_link
 from up_simulator.link.model import LinkSettings
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError
+from up_simulator.verbs.catalogue import verb_parser
 
 DESCRIPTION = """\
 A virtual aircraft in real time, until Ctrl-C: a flight dynamics model (JSBSim) in wind and
@@ -67,16 +68,12 @@ BOARD_HELP = (
 )
 TURBULENCE = ("none", "light", "moderate", "severe")
 T = TypeVar("T")
+wind_m_s = bounded_number(0, 25, "m/s")
 
 
 def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
     """Return the options; a wrong one ends the program with status 2 and one sentence."""
-    parser = OptionParser(
-        prog="up-sim start",
-        allow_abbrev=False,
-        description=DESCRIPTION,
-        epilog=EPILOG,
-    )
+    parser = verb_parser("start", DESCRIPTION, EPILOG)
     _add_flight(parser.add_argument_group("flight"))
     _add_board(parser.add_argument_group("board"))
     _add_pilot(parser.add_argument_group("pilot"))
@@ -169,10 +166,10 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
         help="where Raspilot is, default %(default)s",
     )
     group.add_argument(
-        "--general-port", type=_port, default=50001, metavar="N", help="default 50001"
+        "--general-port", type=port_number, default=50001, metavar="N", help="default 50001"
     )
     group.add_argument(
-        "--orientation-port", type=_port, default=50000, metavar="N", help="default 50000"
+        "--orientation-port", type=port_number, default=50000, metavar="N", help="default 50000"
     )
     group.add_argument(
         "--orientation",
@@ -215,7 +212,7 @@ def _add_link(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument(
         "--link-port",
-        type=_port,
+        type=port_number,
         default=3005,
         metavar="N",
         help="where Raspilot enters it, default 3005",
@@ -227,17 +224,6 @@ def _add_link(group: argparse._ArgumentGroup) -> None:
         metavar="HOST:PORT",
         help="the proxy's side for aircraft, 127.0.0.1:3003",
     )
-
-
-def wind_m_s(text: str) -> float:
-    """Return a wind's speed; raises ``ArgumentTypeError``."""
-    try:
-        speed_m_s = float(text)
-    except ValueError:
-        speed_m_s = -1.0
-    if not 0.0 <= speed_m_s <= 25.0:
-        raise argparse.ArgumentTypeError(f"{text!r}: wind is 0 to 25 m/s")
-    return speed_m_s
 
 
 def recording(text: str) -> Path:
@@ -265,17 +251,11 @@ def _file(text: str) -> Path:
     return Path(text)
 
 
-def _port(text: str) -> int:
-    if not (text.isascii() and text.isdigit()) or not 1 <= int(text[:9]) <= 65535:
-        raise argparse.ArgumentTypeError(f"{text!r}: a port is 1 to 65535")
-    return int(text)
-
-
 def _place(text: str) -> tuple[str, int]:
     host, colon, port = text.rpartition(":")
     if not colon or not host:
         raise argparse.ArgumentTypeError(f"{text!r} is not HOST:PORT")
-    return host, _port(port)
+    return host, port_number(port)
 
 
 def _radio(text: str) -> str:

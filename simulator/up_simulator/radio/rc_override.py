@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from up.cli.option_parser import OptionParser
 from up.output import program_error
 from up_simulator.harness.user_log import print_line
 from up_simulator.radio.axis_map import read_axis_map
@@ -17,6 +16,7 @@ from up_simulator.radio.game_controller import GameController, controller_device
 from up_simulator.radio.keyboard_radio import KeyboardRadio, status_line
 from up_simulator.radio.remote_messages import MAX_DATAGRAM, Snapshot, read_snapshot, write_sticks
 from up_simulator.radio.sticks import Radio, RadioError
+from up_simulator.verbs.catalogue import verb_parser
 
 PERIOD_S = 0.02
 TIMEOUT_S = 2.0
@@ -134,7 +134,7 @@ def _radio(link: RadioLink, options: argparse.Namespace, on_leave: Callable[[], 
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = OptionParser(prog="up-sim radio", description=DESCRIPTION, allow_abbrev=False)
+    parser = verb_parser("radio", DESCRIPTION)
     parser.add_argument("who", nargs="?", default="keyboard", help="keyboard (default), js0, ...")
     parser.add_argument("--socket", type=Path, default=DEFAULT_SOCKET, help="default %(default)s")
     parser.add_argument(

@@ -10,15 +10,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
-from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up.output import print_problems
+from up.output import StatusLine, print_problems
 from up_simulator.harness.child import request_death_signal
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
@@ -30,6 +28,7 @@ from up_simulator.verbs.catalogue import (
     name_of,
     no_such_tag,
     shipped_paths,
+    verb_parser,
 )
 from up_simulator.verbs.fly import try_output
 
@@ -147,8 +146,7 @@ class Batch:
         self._flying: list[Job] = []
         self._count = len(jobs)
         self._options = options
-        self._stream = stream
-        self._shown_s = 0.0
+        self._line = StatusLine(stream, period_s=SHOWN_S)
 
     def fly(self) -> None:
         while self._waiting or self._flying:
@@ -161,7 +159,7 @@ class Batch:
                 self.done.append(job)
             self._show()
             time.sleep(WAIT_S)
-        self._clear()
+        self._line.clear()
 
     def end(self) -> None:
         """End the running flights; a signal from the terminal has reached them already."""
@@ -175,7 +173,7 @@ class Batch:
                 if job.process is not None and time.monotonic() > limit_s:
                     job.process.kill()
                 time.sleep(WAIT_S)
-        self._clear()
+        self._line.clear()
 
     def _has_room_for(self, job: Job) -> bool:
         if job.is_real:
@@ -183,21 +181,8 @@ class Batch:
         return len(self._flying) < int(self._options.processes)
 
     def _show(self) -> None:
-        now_s = time.monotonic()
-        if self._stream.isatty() and now_s - self._shown_s >= SHOWN_S:
-            self._shown_s = now_s
-            names = ", ".join(job.name for job in self._flying)
-            self._write(f"\r\x1b[K{len(self.done)} of {self._count}: {names}"[:200])
-
-    def _clear(self) -> None:
-        if self._stream.isatty():
-            self._write("\r\x1b[K")
-
-    def _write(self, text: str) -> None:
-        # The terminal may be closed already.
-        with suppress(OSError):
-            self._stream.write(text)
-            self._stream.flush()
+        names = ", ".join(job.name for job in self._flying)
+        self._line.show(f"{len(self.done)} of {self._count}: {names}"[:200])
 
 
 def _print_table(jobs: list[Job], took_s: float, count: int) -> None:
@@ -242,11 +227,8 @@ def _print_failure(job: Job) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = OptionParser(
-        prog="up-sim all",
-        allow_abbrev=False,
-        description="Flies every scenario that is shipped and closes with how many held.",
-        epilog=EPILOG,
+    parser = verb_parser(
+        "all", "Flies every scenario that is shipped and closes with how many held.", EPILOG
     )
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
     parser.add_argument("--picture", action="store_true", help="draw pictures, too")

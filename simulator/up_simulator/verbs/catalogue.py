@@ -6,11 +6,18 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from up.cli.cli_error import UsageError
+from up.cli.option_parser import OptionParser
 from up.fields import suggestion
 
 SHIPPED = Path(__file__).resolve().parents[1] / "scenarios"
 SUFFIXES = (".yml", ".yaml")
 HELD, NOT_HELD, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def verb_parser(verb: str, description: str, epilog: str = "") -> OptionParser:
+    """Return the parser of a verb of ``up-sim``."""
+    prog = f"up-sim {verb}"
+    return OptionParser(prog=prog, allow_abbrev=False, description=description, epilog=epilog)
 
 
 def shipped_paths() -> list[Path]:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
 from up.output import print_problems
 from up_simulator.scenario.file import read_scenario
-from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, find
+from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, find, verb_parser
 
 EPILOG = """\
 Every error is reported with file, line, column and, if possible, a suggestion.
@@ -23,12 +22,7 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """Check files; return the exit status."""
-    parser = OptionParser(
-        prog="up-sim check",
-        allow_abbrev=False,
-        description="Reads scenario files and reports all their errors.",
-        epilog=EPILOG,
-    )
+    parser = verb_parser("check", "Reads scenario files and reports all their errors.", EPILOG)
     parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or a shipped one's name")
     options = parser.parse_args(arguments)
     status = HELD

@@ -9,18 +9,17 @@ from contextlib import suppress
 from pathlib import Path
 
 from up.cli.cli_error import CliError, UsageError
-from up.cli.option_parser import OptionParser
 from up.fields import printable
 from up.output import program_line
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
-from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.run import (
     FLIGHTS,
     CannotFlyError,
     Output,
+    ProgressLine,
     fly_scenario,
     try_folder,
     write_files,
@@ -33,6 +32,7 @@ from up_simulator.verbs.catalogue import (
     WRONG_INPUT,
     find,
     name_of,
+    verb_parser,
 )
 
 EPILOG = """\
@@ -140,11 +140,8 @@ def _print_table(results: list[tuple[str, Result]], count: int) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = OptionParser(
-        prog="up-sim fly",
-        allow_abbrev=False,
-        description="Flies scenarios and reports whether what they expect is true.",
-        epilog=EPILOG,
+    parser = verb_parser(
+        "fly", "Flies scenarios and reports whether what they expect is true.", EPILOG
     )
     parser.add_argument(
         "scenarios", nargs="+", metavar="SCENARIO", help="a shipped one's name, or a file"

@@ -7,13 +7,20 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from up.cli.option_parser import OptionParser, add_json_option
+from up.cli.option_parser import add_json_option
 from up.config import ConfigErrors
 from up.fields import printable
 from up.output import echo, print_problems
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, name_of, no_such_tag, shipped_paths
+from up_simulator.verbs.catalogue import (
+    HELD,
+    WRONG_INPUT,
+    name_of,
+    no_such_tag,
+    shipped_paths,
+    verb_parser,
+)
 
 EPILOG = """\
 examples:
@@ -24,11 +31,10 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """List scenarios; return the exit status."""
-    parser = OptionParser(
-        prog="up-sim list",
-        allow_abbrev=False,
-        description="Lists scenarios: name, how long, title, tags, and the rule that each guards.",
-        epilog=EPILOG,
+    parser = verb_parser(
+        "list",
+        "Lists scenarios: name, how long, title, tags, and the rule that each guards.",
+        EPILOG,
     )
     parser.add_argument("folder", nargs="?", type=Path, help="another folder than the shipped one")
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from up.cli.cli_error import CliError, UsageError
-from up.cli.option_parser import OptionParser
-from up_simulator.verbs.catalogue import HELD
+from up_simulator.verbs.catalogue import HELD, verb_parser
 
 TEMPLATE = "template.yml"
 EPILOG = """\
@@ -22,11 +21,8 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """Write the file; return the exit status."""
-    parser = OptionParser(
-        prog="up-sim new",
-        allow_abbrev=False,
-        description="Writes a scenario with a comment at every key that it uses.",
-        epilog=EPILOG,
+    parser = verb_parser(
+        "new", "Writes a scenario with a comment at every key that it uses.", EPILOG
     )
     parser.add_argument("name", metavar="NAME", help="of the scenario, or the path of its file")
     path = _path(parser.parse_args(arguments).name)

@@ -9,13 +9,13 @@ import sys
 import time
 from collections.abc import Sequence
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
 from pathlib import Path
 from typing import TextIO
 
 from up.cli.cli_error import CliError, UsageError
-from up.cli.option_parser import OptionParser, add_json_option
+from up.cli.option_parser import add_json_option, whole_number
 from up.fields import printable, suggestion
+from up.output import StatusLine
 from up_simulator.harness.start_options import wind_m_s
 from up_simulator.harness.workers import Workers
 from up_simulator.prove.advice import advice_of, story
@@ -25,11 +25,10 @@ from up_simulator.prove.page import Proof, document, page
 from up_simulator.prove.rows import CODES, ROWS, point_of, row_of
 from up_simulator.prove.setup import Setup, read_setup
 from up_simulator.scenario.run import CannotFlyError
-from up_simulator.verbs.catalogue import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
+from up_simulator.verbs.catalogue import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT, verb_parser
 
 OUTPUT = Path("run") / "proof.html"
 BAR = 30
-SHOWN_S = 0.2
 EPILOG = """\
 examples:
   up-sim prove
@@ -120,38 +119,28 @@ class Bar:
     """The progress: one line on a terminal, otherwise a line for each flight."""
 
     def __init__(self, stream: TextIO, count: int) -> None:
-        self._stream, self._count = stream, count
+        self._line, self._count = StatusLine(stream), count
         self._done = self._failed = 0
         self._began_s = time.monotonic()
-        self._shown_s = 0.0
 
     def show(self, outcome: Outcome) -> None:
         self._done += 1
         self._failed += not outcome.is_held
-        now_s = time.monotonic()
-        if not self._stream.isatty():
+        if not self._line.is_terminal:
             case = outcome.case
             codes = ", ".join(outcome.codes) or "held"
             where = f"{row_of(case.row).about}, {point_of(case.point).about}, {case.weather}"
             text = f"{self._done}/{self._count} {where}, {case.controller}: {codes}"
-            self._write(f"{printable(text)}\n")
-        elif now_s - self._shown_s >= SHOWN_S:
-            self._shown_s = now_s
+            self._line.print(printable(text))
+        else:
             filled = BAR * self._done // self._count
-            left_s = (now_s - self._began_s) * (self._count - self._done) / self._done
+            left_s = (time.monotonic() - self._began_s) * (self._count - self._done) / self._done
             bar = "#" * filled + "." * (BAR - filled)
             text = f"[{bar}] {self._done} of {self._count}, {self._failed} not held"
-            self._write(f"\r\x1b[K{text}, {left_s:.0f} s left")
+            self._line.show(f"{text}, {left_s:.0f} s left")
 
     def end(self) -> None:
-        if self._stream.isatty():
-            self._write("\r\x1b[K")
-
-    def _write(self, text: str) -> None:
-        # The terminal may be closed already.
-        with suppress(OSError):
-            self._stream.write(text)
-            self._stream.flush()
+        self._line.clear()
 
 
 def _report(proof: Proof, output: Path) -> None:
@@ -198,19 +187,12 @@ def _try_output(output: Path) -> None:
         raise UsageError(text, "cannot_write") from error
 
 
-def _count(text: str) -> int:
-    if not (text.isascii() and text.isdigit()) or not 1 <= int(text[:9]) <= 1000:
-        raise argparse.ArgumentTypeError(f"{text[:20]!r}: 1 to 1000")
-    return int(text)
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = OptionParser(
-        prog="up-sim prove",
-        allow_abbrev=False,
-        description="Flies your configuration through every failure, at several points of a\n"
+    parser = verb_parser(
+        "prove",
+        "Flies your configuration through every failure, at several points of a\n"
         "flight, and names what to change.",
-        epilog=EPILOG + "\n".join(f"  {row.code:<24}{row.about}" for row in ROWS),
+        EPILOG + "\n".join(f"  {row.code:<24}{row.about}" for row in ROWS),
     )
     add = parser.add_argument
     add("--config", type=Path, default=Path("config"), metavar="DIR",
@@ -220,11 +202,11 @@ def _parser() -> argparse.ArgumentParser:
     add("--controller", choices=("arduino", "raspberry"),
         help="who holds the attitude (default: config.yml; --thorough: both)")  # fmt: skip
     add("--wind", type=wind_m_s, default=6.0, metavar="M_S", help="stated wind (default: 6)")
-    add("--seeds", type=_count, default=1, metavar="N",
+    add("--seeds", type=whole_number(1, 1000), default=1, metavar="N",
         help="flights of each kind, with other noise (default: 1)")  # fmt: skip
     add("--only", nargs="+", default=[], metavar="CODE", help="only these failures")
     add("--thorough", action="store_true", help="at least 500 flights in drawn weather")
-    add("--processes", type=_count, default=os.cpu_count() or 1, metavar="N",
+    add("--processes", type=whole_number(1, 1000), default=os.cpu_count() or 1, metavar="N",
         help="flights at a time (default: the processor's cores)")  # fmt: skip
     add("--output", type=Path, default=OUTPUT, metavar="FILE.html",
         help=f"the page (default: {OUTPUT})")  # fmt: skip

@@ -7,10 +7,10 @@ import sys
 from collections.abc import Sequence
 
 from up.cli.cli_error import UsageError
-from up.cli.option_parser import OptionParser, add_json_option
+from up.cli.option_parser import add_json_option
 from up.output import echo
 from up_simulator.scenario.signals import SIGNALS, Kind, Signal
-from up_simulator.verbs.catalogue import HELD
+from up_simulator.verbs.catalogue import HELD, verb_parser
 
 EPILOG = """\
 examples:
@@ -20,12 +20,7 @@ examples:
 
 def main(arguments: Sequence[str]) -> int:
     """List signals; return the exit status."""
-    parser = OptionParser(
-        prog="up-sim signals",
-        allow_abbrev=False,
-        description="Lists the signals for expectations and logs.",
-        epilog=EPILOG,
-    )
+    parser = verb_parser("signals", "Lists the signals for expectations and logs.", EPILOG)
     parser.add_argument("groups", nargs="*", metavar="GROUP", help="the part before the dot")
     add_json_option(parser)
     options = parser.parse_args(arguments)

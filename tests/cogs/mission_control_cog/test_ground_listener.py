@@ -6,8 +6,7 @@ import socket
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mission_control_cog.ground_connection import GroundConnection
-from mission_control_cog.grounds import MAX_STATIONS, Grounds
+from mission_control_cog.grounds import MAX_STATIONS, GroundConnection, Grounds
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 

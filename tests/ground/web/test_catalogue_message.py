@@ -7,7 +7,7 @@ from typing import ClassVar
 import pytest
 from twisted.internet.task import Clock
 
-from tests.ground.web.test_client_hub import Link
+from tests.ground.web.hub import Link
 from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role

@@ -91,15 +91,3 @@ def test_a_cookie_lets_a_page_control_until_it_signs_out(server):
         await page.leave()
 
     run_in_reactor(talk)
-
-
-def test_too_many_wrong_keys_of_an_address_are_not_judged(tmp_path):
-    with Serve(tmp_path, 1, "--key", KEY) as server:
-        codes = [sign_in(server.port, f"guess-{number}")[0] for number in range(12)]
-        assert codes == [403] * 10 + [429] * 2
-        assert sign_in(server.port, KEY) == (429, "")
-
-
-def test_without_a_key_there_is_nothing_to_sign_in_with(tmp_path):
-    with Serve(tmp_path, 1) as server:
-        assert sign_in(server.port, KEY) == (404, "")

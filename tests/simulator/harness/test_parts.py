@@ -8,8 +8,8 @@ import pytest
 from up_simulator.aircraft import load_airframe
 from up_simulator.firmware import build
 from up_simulator.firmware.build import BoardUnavailableError
-from up_simulator.harness.parts import make_board
 from up_simulator.harness.user_log import no_log
+from up_simulator.harness.virtual_aircraft import make_board
 
 OPTIONS = {"framing": "checked", "elf": None, "gains": None, "seed": 1}
 

@@ -2,7 +2,7 @@
 
 import os
 
-from up_simulator.in_process.socket_line import SocketLine
+from up_simulator.in_process.raspilot import SocketLine
 
 
 def test_a_line_passes_bytes_at_once_and_ends_with_a_hang_up():

@@ -1,7 +1,7 @@
 import io
 import re
 
-from up_simulator.scenario.progress import ProgressLine
+from up_simulator.scenario.run import ProgressLine
 
 
 class Terminal(io.StringIO):
@@ -20,12 +20,12 @@ def test_one_line_shows_time_and_speed_and_is_cleared():
     line.end()
     shown = terminal.getvalue()
     assert "\n" not in shown
-    newest = shown.split("\r")[-3]
+    newest = shown.split("\r\x1b[K")[-2]
     assert newest.startswith("roll-step: ")
     assert re.findall(r"[0-9.]+", newest) == ["8.0", "10", "4.0"]
     # At most one update in 0.2 s.
     assert "8.1" not in shown
-    assert shown.endswith("\r") and shown.rstrip("\r").endswith(" ")
+    assert shown.endswith("\r\x1b[K")
 
 
 def test_without_a_terminal_it_is_silent():

@@ -6,7 +6,7 @@ import up.protocols
 
 FOLDER = Path(up.protocols.__file__).parent
 MODULES = sorted(f"up.protocols.{path.stem}" for path in FOLDER.glob("*.py"))
-CODECS = ("checked_framing", "thesis_framing", "framing", "line_decoder",
+CODECS = ("checked_framing", "framing", "line_decoder",
           "general_message", "orientation_forward")  # fmt: skip
 
 

@@ -5,27 +5,16 @@ from pathlib import Path
 
 import pytest
 
-from up.protocols.aircraft_sessions import AircraftSessions, Key
+from tests.up.protocols.test_envelope import KEY, Drawn
+from up.protocols.aircraft_sessions import AircraftSessions
 from up.protocols.envelope import EnvelopeError
 from up.protocols.pairing import Pairing
 from up.protocols.runner_session import RUNNER, RunnerSession, body_of, to_line
 from up.system.aircraft_name import AIRCRAFT_NAME
 
 VECTORS = json.loads(Path("tests/vectors/runner_request.json").read_text(encoding="utf-8"))
-KEY = Key(bytes(range(8)), bytes(range(32)), "tablet", "pilot")
 PAIRING = Pairing("glider-1", KEY.id.hex(), KEY.secret.hex(), "pilot", "tablet")
 REQUEST, RESULT = b'{"aircraft": "glider-1"}', b'{"running": true}'
-
-
-class Drawn:
-    """Random bytes that a test knows: 0x10, 0x11, ... repeated."""
-
-    def __init__(self, first):
-        self._next = first
-
-    def __call__(self, size):
-        self._next += 1
-        return bytes([self._next]) * size
 
 
 def opened():
