@@ -72,7 +72,7 @@ def tls_settings(folder: Path) -> str:
 
 @contextmanager
 def haproxy(folder: Path, port: int, echo: int, storm: int = 0) -> Iterator[int]:
-    """Run HAProxy with TLS on both legs and yield its pid; behind ``storm`` is no server."""
+    """Run HAProxy with TLS on both legs and yield its pid; ``storm`` has no server behind it."""
     own = folder / "relay"
     both = own / "both.pem"
     both.write_bytes((own / "certificate.pem").read_bytes() + (own / "key.pem").read_bytes())
@@ -187,7 +187,7 @@ def storm_s(port: int, pid: int, own: Path, count: int) -> tuple[float, float]:
 
 
 def storm_rows(rounds: int, own: Path) -> Iterable[Row]:
-    """Yield what a storm costs, and the round trips of good peers that are relayed meanwhile."""
+    """Yield what a storm costs, and the round trips of good peers relayed during it."""
     ours, theirs = [], []
     for _ in range(rounds):
         with (

@@ -40,7 +40,7 @@ class TLSProtocol(Protocol):
 
     That is built and connected after the handshake, so it never sees an unverified peer; ``done``
     then fires with it, or with a TLSError. A later fault is the reason of its connectionLost.
-    What is not TLS (addresses, TCP options, producers) is the TCP transport's.
+    Addresses, TCP options and producers are the TCP transport's.
     """
 
     transport: Any

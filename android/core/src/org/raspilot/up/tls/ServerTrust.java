@@ -52,7 +52,7 @@ final class ServerTrust implements X509TrustManager {
 
     @Override
     public void checkClientTrusted(X509Certificate[] chain, String type) throws TlsException {
-        throw new TlsException("tls_failed", "this is no server");
+        throw new TlsException("tls_failed", "this certificate is not a server's");
     }
 
     @Override
@@ -127,7 +127,7 @@ final class ServerTrust implements X509TrustManager {
             return named.equals(host);
         }
         try {
-            // With a colon it is an address: nobody is asked for a name.
+            // With a colon it is an address: no name is looked up.
             return InetAddress.getByName(named).equals(InetAddress.getByName(host));
         } catch (UnknownHostException wrong) {
             return false;

@@ -258,7 +258,7 @@ public final class TlsConnection implements TcpConnection, TcpListener {
         return !outgoing.hasRemaining();
     }
 
-    /** Runs what takes long on another thread, and goes on here. */
+    /** Runs a long step on another thread, then continues here. */
     private void aside(Step step) {
         isBusy = true;
         others.execute(() -> {

@@ -243,7 +243,7 @@ public final class LinkSecurityTest {
         line(frame("{}"));
         assertNull(written(BinaryLine.HANDSHAKE));
         line(answer);
-        assertEquals("no frame of before the hello", 0, bench.frames.size());
+        assertEquals("no frame from before the hello", 0, bench.frames.size());
         line(frame("{}"));
         assertEquals(1, bench.frames.size());
     }

@@ -27,7 +27,7 @@ public final class TlsConnectionTest implements TcpListener {
     private final Faults faults = new Faults();
     private final ScriptedNetwork network = new ScriptedNetwork();
     private final ManualLoop loop = new ManualLoop(network, faults);
-    /** What is to run on the other thread. */
+    /** The tasks for the other thread. */
     private final ArrayDeque<Runnable> aside = new ArrayDeque<>();
     private final List<String> told = new ArrayList<>();
     private TlsConnection connection;
