@@ -251,6 +251,7 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         duration_s=limits.settled_s + (0.0 if limits.fail_s == MODE_S else REST_S),
         board="host",
         may_crash=True,
+        may_land=limits.may_land,
         start=StartPart(height_m=height_m),
         weather=WeatherPart(case.wind_m_s, case.from_deg, case.turbulence),  # type: ignore[arg-type]
         switch=SwitchPart(**setup.switch),  # type: ignore[arg-type]

@@ -34,8 +34,14 @@ def seen(from_s=11.0):
     [
         (LIMITS, {}, None, {}),
         (LIMITS, {}, "it has hit the ground", {"crash": 39.9}),
-        (replace(LIMITS, may_land=True), {}, "it has hit the ground", {}),
-        (replace(LIMITS, may_land=True), {"climb_m_s": lambda _: -4.0}, "hit", {"crash": 39.9}),
+        (replace(LIMITS, may_land=True), {}, "it has hit the ground", {"crash": 39.9}),
+        # A landing: it slides and stops.
+        (
+            replace(LIMITS, may_land=True),
+            {"height_m": lambda at: 60.0 - 2 * min(at, 30.0), "airspeed_m_s": lambda at: 38 - at},
+            None,
+            {},
+        ),
         # 1.05 times the stall is 6.3 m/s; a gust of 0.3 s is none.
         (LIMITS, {"airspeed_m_s": lambda at: 6.2 if 12 <= at < 12.3 else 11.0}, None, {}),
         (LIMITS, {"airspeed_m_s": lambda at: 6.2 if at >= 12 else 11.0}, None, {"stall": 12.3}),
