@@ -26,8 +26,8 @@ from up_simulator.scenario.scenario import (
 from up_simulator.scenario.sticks import StickPoint
 
 HOME_S, MODE_S, CLIMB_S, FAIL_S = 2.0, 4.0, 5.0, 12.0
-TURN_S, REST_S = 10.0, 15.0
-"""The turn for home after a reaction, and how long the way home is then watched."""
+TURN_S = 10.0
+"""The turn for home after a reaction."""
 MARGIN_S, STALLED_S = 6.0, 15.0
 """From a failure to its detection, beyond the delay of failsafe.yml; and of no progress."""
 CLIMB_M, MAX_START_M = 80.0, 4900.0
@@ -248,7 +248,7 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         title=row.about,
         airframe=setup.airframe,
         seed=case.seed,
-        duration_s=limits.settled_s + (0.0 if limits.fail_s == MODE_S else REST_S),
+        duration_s=limits.settled_s + (0.0 if limits.fail_s == MODE_S else row.rest_s),
         board="host",
         may_crash=True,
         may_land=limits.may_land,
