@@ -38,6 +38,8 @@ MAX_WIND_M_S = 8.0
 GALE = 1.1
 GPS_WITHIN_S, GPS_LASTS_S = 10.0, 10.0
 """A second failure begins so soon after the first one, and lasts so long at most."""
+BELIEVED_S = 7.0
+"""After a jump of 300 m, until the aircraft can have been at the true place again."""
 THOROUGH = 500
 
 
@@ -171,10 +173,13 @@ def _order_s(case: Case) -> float:
 
 
 def _blind_m(case: Case) -> float:
-    """Return how far the wind drifts a circle that is flown without a position."""
+    """Return how far the wind drifts a circle without a position, or with a wrong one."""
     row = row_of(case.row)
     is_blind = not row.begin.keys().isdisjoint(("gps", "phone"))
-    return case.wind_m_s * ((row.lasts_s or 0.0) if is_blind else GPS_LASTS_S if case.gps else 0.0)
+    blind_s = (row.lasts_s or 0.0) if is_blind else GPS_LASTS_S if case.gps else 0.0
+    if "jumped" in (case.gps, row.begin.get("gps")):
+        blind_s += BELIEVED_S
+    return case.wind_m_s * blind_s
 
 
 def _approach_s(row: Row, setup: Setup) -> float:
