@@ -166,6 +166,9 @@ class NavigationEstimator(BaseProvider[NavigationState]):
 
     def _on_flight_battery(self, command: FlightBatteryCommand) -> None:
         """The speed controller chops the voltage: a weak battery acts as less throttle."""
+        if not self.estimator.is_in_flight:
+            # A calibration, or another battery.
+            self._highest_v = 0.0
         self._highest_v = max(self._highest_v, command.voltage_v)
         self._voltage_share = command.voltage_v / self._highest_v if self._highest_v else 1.0
 

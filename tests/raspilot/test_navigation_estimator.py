@@ -154,6 +154,7 @@ def test_a_throttle_that_gives_no_thrust_is_a_stopped_motor(rig):
 
 
 def test_a_weak_battery_is_no_stopped_motor(rig):
+    rig.publish(FlightBatteryCommand(36.0), BOARD)
     rig.publish(FlightBatteryCommand(12.4), BOARD)
     rig.fly(40)
     rig.publish(FlightBatteryCommand(9.0), BOARD)
