@@ -19,6 +19,7 @@ from raspilot.flight_controller.required import check_required
 from raspilot.flight_modes.guided import GUIDED, Guided
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.path_controller import PathController
+from raspilot.navigation.planning import with_ground_bank
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
@@ -277,6 +278,7 @@ class FlightModeManager(BaseFlightController):
             navigation,
             is_fallback=selector.running != selector.selected,
         )
+        demand = with_ground_bank(demand, navigation, situation.home)
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.approach import MIN_GROUND_M_S, Approach, approach_airspeed_m_s
-from raspilot.navigation.planning import circle_around, distance_m
+from raspilot.navigation.planning import circle_around, distance_m, ground_bank_deg
 from up.config import ConfigFile, key
 from up.flight_modes.demand import AttitudeDemand, Circle, Course, Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal, Target
@@ -23,8 +23,7 @@ SETTLED_M = 4.0
 KNOWN_WIND_SD_M_S = 1.0
 ALIGNED_DEG, BEGIN_OFF_M = 15.0, 30.0
 HEIGHT_GAIN = 0.3
-FINAL_BANK_DEG, NEAR_BANK_DEG, BANK_DEG_PER_M = 25.0, 8.0, 4.0
-"""Bank limit: on the approach; at the ground; how it grows with the height that is certain."""
+FINAL_BANK_DEG = 25.0
 MAX_OFF_COURSE_DEG = 25.0
 CALM_M_S = 2.0
 
@@ -261,9 +260,7 @@ class Land(FlightMode):
         return PathDemand(circle, altitude_m, bank_limit_deg=self._bank_limit_deg(state))
 
     def _bank_limit_deg(self, state: NavigationState) -> float:
-        """Return the bank for the height that is certain: near the ground a wing tip is low."""
-        certain_m = max(0.0, self._height_m(state) - state.altitude_sd_m)
-        return NEAR_BANK_DEG + BANK_DEG_PER_M * certain_m
+        return ground_bank_deg(self._height_m(state), state.altitude_sd_m)
 
 
 def _goal_of(situation: FlightSituation) -> Target | None:

@@ -9,6 +9,7 @@ from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.command import BaseCommand
+from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.servo_command import ServoCommand
@@ -53,6 +54,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._state: NavigationState | None = None
         self._is_old = True
         self._motor_stopped = False
+        self._voltage_share, self._highest_v = 1.0, 0.0
 
     def on_init(self) -> None:
         self.estimator = Estimator(AirframeModel(self.context.config(NAVIGATION)))
@@ -64,6 +66,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         executor = self.up.command_executor
         executor.register_command(ServoCommand, self._on_servos)
         executor.register_command(AccelerationCommand, self._on_acceleration)
+        executor.register_command(FlightBatteryCommand, self._on_flight_battery)
 
     @property
     def state(self) -> NavigationState | None:
@@ -158,7 +161,16 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.estimator.compass(reading.time_s, reading.value)
 
     def _on_servos(self, command: ServoCommand) -> None:
-        self.estimator.throttle((command.throttle_us - LOWEST_US) / RANGE_US)
+        throttle = (command.throttle_us - LOWEST_US) / RANGE_US
+        self.estimator.throttle(throttle * self._voltage_share)
+
+    def _on_flight_battery(self, command: FlightBatteryCommand) -> None:
+        """The speed controller chops the voltage: a weak battery acts as less throttle."""
+        if not self.estimator.is_in_flight:
+            # A calibration, or another battery.
+            self._highest_v = 0.0
+        self._highest_v = max(self._highest_v, command.voltage_v)
+        self._voltage_share = command.voltage_v / self._highest_v if self._highest_v else 1.0
 
     def _on_acceleration(self, command: AccelerationCommand) -> None:
         self._is_old = True

@@ -1,12 +1,14 @@
-"""Circles that can be flown, and airspeeds for the wind."""
+"""Circles and banks that can be flown, and airspeeds for the wind."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from raspilot.navigation.airframe_model import AirframeModel
 from up.earth import GRAVITY_M_S2
-from up.flight_modes.demand import Circle
+from up.flight_modes.demand import Circle, PathDemand
+from up.flight_modes.flight_mode import Home
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState, Point
 
@@ -16,6 +18,8 @@ AVIONICS_M_S = 0.3
 """What receiver, computer and radio use in addition to the motor, as a sink."""
 AIRSPEED_STEP_M_S = 0.5
 SETTLE_S = 1.0
+NEAR_BANK_DEG, BANK_DEG_PER_M = 8.0, 4.0
+"""Bank limit at the ground, and how it grows with the height."""
 
 
 def distance_m(a: Point, b: Point) -> float:
@@ -104,3 +108,18 @@ def circle_around(
     east_m = centre.east_m - state.position.east_m
     right_m = state.velocity_m_s.north_m * east_m - state.velocity_m_s.east_m * north_m
     return Circle(centre, flyable_radius_m(config, state, radius_m), right_m >= 0.0)
+
+
+def ground_bank_deg(height_m: float, sd_m: float) -> float:
+    """Return the greatest bank for the height that is certain: near the ground a wing is low."""
+    return NEAR_BANK_DEG + BANK_DEG_PER_M * max(0.0, height_m - sd_m)
+
+
+def with_ground_bank(demand: PathDemand, state: NavigationState, home: Home | None) -> PathDemand:
+    """Return a demand with ``ground_bank_deg`` above home: without thrust it may touch down."""
+    if home is None or (demand.motor and not state.motor_stopped):
+        return demand
+    limit_deg = ground_bank_deg(state.altitude_m - home.altitude_m, state.altitude_sd_m)
+    if demand.bank_limit_deg is not None:
+        limit_deg = min(limit_deg, demand.bank_limit_deg)
+    return replace(demand, bank_limit_deg=limit_deg)

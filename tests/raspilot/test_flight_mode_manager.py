@@ -149,6 +149,39 @@ def test_without_fixes_a_circle_by_dead_reckoning_and_later_a_glide_then_the_mod
     assert rig.shown()["mode"] == mode
 
 
+class Turn(FlightMode):
+    NAME = "TURN"
+    FALLBACK = "LEVEL"
+    motor = True
+
+    def step(self, situation, dt_s):
+        return PathDemand(Bank(-40.0), motor=self.motor)
+
+
+@pytest.mark.parametrize(
+    ("motor", "stopped", "height_m", "roll_deg"),
+    [
+        (True, True, 2.0, -8.0),
+        (False, False, 2.0, -8.0),
+        (True, True, 8.0, -28.0),
+        (True, True, 30.0, -40.0),
+        (True, False, 2.0, -40.0),
+    ],
+)
+def test_without_thrust_the_bank_is_low_near_the_ground(
+    tmp_path, motor, stopped, height_m, roll_deg
+):
+    """The height above home counts less its standard deviation of 3 m."""
+    rig = NavigationRig(tmp_path, modes=(Turn,))
+    rig.up.get_module(Turn).motor = motor
+    rig.navigation.state = replace(NAVIGATION, altitude_sd_m=3.0, motor_stopped=stopped)
+    rig.state()
+    rig.setpoint()
+    rig.outcome(FlightModeCommand("TURN"))
+    rig.navigation.state = replace(rig.navigation.state, altitude_m=250.0 + height_m)
+    assert [rig.setpoint() for _ in range(60)][-1].roll_deg == pytest.approx(roll_deg)
+
+
 def test_a_board_mode_ends_a_mode_of_the_pi(rig):
     rig.state()
     rig.outcome(FlightModeCommand("BANK"))

@@ -8,6 +8,7 @@ from twisted.internet.task import Clock
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from tests.support.system import build_up
 from up.commands.altitude_command import AltitudeCommand
+from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
@@ -150,6 +151,19 @@ def test_a_throttle_that_gives_no_thrust_is_a_stopped_motor(rig):
     rig.feel(-0.9)
     assert rig.module.state.motor_stopped
     assert rig.module.telemetry_content["navigation"]["motor_stopped"] is True
+
+
+def test_a_weak_battery_is_no_stopped_motor(rig):
+    rig.publish(FlightBatteryCommand(36.0), BOARD)
+    rig.publish(FlightBatteryCommand(12.4), BOARD)
+    rig.fly(40)
+    rig.publish(FlightBatteryCommand(9.0), BOARD)
+    # It nearly holds the altitude; with a full battery this throttle climbs with 2 m/s.
+    rig.throttle_us = round(1000 + 490 * 12.4 / 9.0)
+    rig.feel(-0.2)
+    assert not rig.module.state.motor_stopped
+    rig.feel(-0.9)
+    assert rig.module.state.motor_stopped
 
 
 def test_an_airframe_without_motor_has_none_that_stops(tmp_path):

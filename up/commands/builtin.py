@@ -7,6 +7,7 @@ from up.commands.answer_commands import AckCommand, CommandAnsweredCommand, Nack
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_state_command import (
+    FlightBatteryCommand,
     FlightModeCommand,
     FlightStateCommand,
     FlyByWireLimitsCommand,
@@ -41,6 +42,7 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     ArmCommand,
     CommandAnsweredCommand,
     DisarmCommand,
+    FlightBatteryCommand,
     FlightModeCommand,
     FlightStateCommand,
     FlyByWireLimitsCommand,

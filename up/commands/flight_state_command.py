@@ -1,4 +1,4 @@
-"""The flight mode: what the board reports, what the ground requests, its limits."""
+"""The flight: what the board reports of it, what the ground requests, its limits."""
 
 from __future__ import annotations
 
@@ -23,6 +23,15 @@ class FlightStateCommand(BaseCommand):
     is_auto: bool = value(key="auto")
     is_failsafe: bool = value(key="failsafe")
     is_in_flight: bool | None = value(None, key="in_flight")
+
+
+@dataclass(frozen=True, slots=True)
+class FlightBatteryCommand(BaseCommand):
+    """The voltage of the flight battery under its present load."""
+
+    NAME: ClassVar[str] = "up.flight_battery.update"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    voltage_v: float = value(key="voltage", minimum=0, maximum=66, unit="V")
 
 
 @dataclass(frozen=True, slots=True)

@@ -137,6 +137,10 @@ def advice_of(outcome: Outcome, setup: Setup) -> Advice | None:
         high_m = math.floor(2 * ceiling.value - figures.highest_m - RESERVE_M)
         text = f"a return height of at most {high_m} m fits below this ceiling"
         return Advice((of("return.yml", "height_m", high_m), ceiling), text)
+    if code in ("crash", "below_floor") and row.needs[:1] == ("flight_battery.yml",):
+        text = f"the battery is empty before home: increase {row.needs[1]}"
+        delay = of("failsafe.yml", f"{row.trigger}.delay_s")
+        return Advice((of(*row.needs), delay), text)
     if code == "below_floor":
         floor = of("failsafe.yml", "fence.floor_m")
         under_m = floor.value - figures.lowest_m
@@ -156,10 +160,6 @@ def advice_of(outcome: Outcome, setup: Setup) -> Advice | None:
         is_gale = case.wind_m_s > MAX_WIND_SHARE * maximum.value
         text += "do not fly in it" if is_gale else "increase cruise_m_s"
         return Advice((cruise, maximum), text)
-    if code == "crash" and row.needs[:1] == ("flight_battery.yml",):
-        text = f"the battery is empty before home: increase {row.needs[1]}"
-        delay = of("failsafe.yml", f"{row.trigger}.delay_s")
-        return Advice((of(*row.needs), delay), text)
     if code == "crash":
         high_m = math.ceil(height.value + figures.height_lost_m + RESERVE_M)
         text = f"{figures.height_lost_m:.0f} m of height were lost: fly at {high_m} m or higher"

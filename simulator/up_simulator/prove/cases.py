@@ -26,8 +26,8 @@ from up_simulator.scenario.scenario import (
 from up_simulator.scenario.sticks import StickPoint
 
 HOME_S, MODE_S, CLIMB_S, FAIL_S = 2.0, 4.0, 5.0, 12.0
-TURN_S, REST_S = 10.0, 15.0
-"""The turn for home after a reaction, and how long the way home is then watched."""
+TURN_S = 10.0
+"""The turn for home after a reaction."""
 MARGIN_S, STALLED_S = 6.0, 15.0
 """From a failure to its detection, beyond the delay of failsafe.yml; and of no progress."""
 CLIMB_M, MAX_START_M = 80.0, 4900.0
@@ -38,6 +38,8 @@ MAX_WIND_M_S = 8.0
 GALE = 1.1
 GPS_WITHIN_S, GPS_LASTS_S = 10.0, 10.0
 """A second failure begins so soon after the first one, and lasts so long at most."""
+BELIEVED_S = 7.0
+"""After a jump of 300 m, until the aircraft can have been at the true place again."""
 THOROUGH = 500
 
 
@@ -171,10 +173,13 @@ def _order_s(case: Case) -> float:
 
 
 def _blind_m(case: Case) -> float:
-    """Return how far the wind drifts a circle that is flown without a position."""
+    """Return how far the wind drifts a circle without a position, or with a wrong one."""
     row = row_of(case.row)
     is_blind = not row.begin.keys().isdisjoint(("gps", "phone"))
-    return case.wind_m_s * ((row.lasts_s or 0.0) if is_blind else GPS_LASTS_S if case.gps else 0.0)
+    blind_s = (row.lasts_s or 0.0) if is_blind else GPS_LASTS_S if case.gps else 0.0
+    if "jumped" in (case.gps, row.begin.get("gps")):
+        blind_s += BELIEVED_S
+    return case.wind_m_s * blind_s
 
 
 def _approach_s(row: Row, setup: Setup) -> float:
@@ -248,9 +253,10 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         title=row.about,
         airframe=setup.airframe,
         seed=case.seed,
-        duration_s=limits.settled_s + (0.0 if limits.fail_s == MODE_S else REST_S),
+        duration_s=limits.settled_s + (0.0 if limits.fail_s == MODE_S else row.rest_s),
         board="host",
         may_crash=True,
+        may_land=limits.may_land,
         start=StartPart(height_m=height_m),
         weather=WeatherPart(case.wind_m_s, case.from_deg, case.turbulence),  # type: ignore[arg-type]
         switch=SwitchPart(**setup.switch),  # type: ignore[arg-type]

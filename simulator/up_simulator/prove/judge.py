@@ -13,7 +13,8 @@ STALL_MARGIN, SLOW_S = 1.05, 0.3
 FARTHER_M = 100.0
 FLOOR_M = 10.0
 """So high above the floor the estimate, which has an error, is surely above it."""
-TOUCH_DOWN_M_S = 3.0
+GROUND_M = 0.2
+"""Below it the aircraft has landed."""
 WARN = "warn"
 CODES = (
     "refused", "no_reaction", "stall", "outside", "above_ceiling", "below_floor", "fly_away",
@@ -48,8 +49,8 @@ class Limits:
     """What a flight must keep, from the failure on; at ``settled_s`` it has turned home.
 
     ``trigger`` and ``action`` are those of failsafe.yml ("": none is demanded), ``priority`` the
-    triggers that decide before it. ``may_land``: a gentle touch-down is no crash. ``circle_m`` is
-    the diameter of a circle that it flies away from home, ``arrived_m`` is near home.
+    triggers that decide before it. ``may_land``: it may sink to the ground. ``circle_m`` is the
+    diameter of a circle that it flies away from home, ``arrived_m`` is near home.
     """
 
     stall_m_s: float
@@ -85,7 +86,7 @@ class Figures:
 def judge(track: Sequence[Sample], limits: Limits, crash: str | None = None) -> Found:
     """Return what was wrong, by code, and when (s), causes first; empty: it held.
 
-    ``crash`` is the end of the flight on the ground, if it was one.
+    ``crash`` is what ended the flight; a landing is none.
     """
     found: dict[str, float] = {}
     for code, time_s in _found(track, limits, crash):
@@ -135,7 +136,7 @@ def _found(
             yield "no_reaction", limits.deadline_s
     fast_s, settled_m, was_above = track[0].time_s, None, False
     for each in track:
-        if each.airspeed_m_s >= least_m_s:
+        if each.airspeed_m_s >= least_m_s or each.height_m < GROUND_M:
             fast_s = each.time_s
         elif each.time_s - fast_s > SLOW_S:
             yield "stall", each.time_s
@@ -151,7 +152,5 @@ def _found(
             settled_m = each.away_m if settled_m is None else settled_m
             if each.away_m > max(settled_m + FARTHER_M + limits.circle_m, limits.arrived_m):
                 yield "fly_away", each.time_s
-    last = track[-1]
-    is_gentle = last.airspeed_m_s >= least_m_s and last.climb_m_s >= -TOUCH_DOWN_M_S
-    if crash is not None and not (limits.may_land and is_gentle):
-        yield "crash", last.time_s
+    if crash is not None:
+        yield "crash", track[-1].time_s

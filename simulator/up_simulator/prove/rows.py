@@ -35,7 +35,8 @@ BORDER = Point("at the border", "CRUISE", 100.0)
 class Row:
     """A failure: the change of an event (as in a scenario) that begins it and that ends it.
 
-    ``lasts_s``: None is until the flight ends; ``order_s`` later the ground commands RETURN.
+    ``lasts_s``: None is until the flight ends; ``order_s`` later the ground commands RETURN, and
+    ``rest_s`` of the way home are watched after the turn: a critical battery has to last so long.
     ``trigger`` is the key of failsafe.yml that has to answer; ``of_sticks``: only where the sticks
     fly. ``needs`` are the configuration's values (file, keys) without which the failure does not
     exist. ``may_land``: a gentle touch-down is no crash. ``is_blown``: the wind is stronger than
@@ -48,6 +49,7 @@ class Row:
     end: Mapping[str, Any] = field(default_factory=dict)
     lasts_s: float | None = None
     order_s: float = 10.0
+    rest_s: float = 15.0
     trigger: str = ""
     of_sticks: bool = False
     needs: tuple[str, ...] = ()
@@ -66,7 +68,7 @@ ROWS = (
     Row("uplink_lost", "the uplink is lost", {"link": "blackout"}, trigger="uplink_lost"),
     Row("flight_battery_critical", "the flight battery is critically low",
         {"flight_battery": CRITICAL}, trigger="flight_battery_critical",
-        needs=("flight_battery.yml", CRITICAL)),
+        needs=("flight_battery.yml", CRITICAL), rest_s=45.0),
     Row("flight_battery_low", "the flight battery is low", {"flight_battery": LOW},
         trigger="flight_battery_low", needs=("flight_battery.yml", LOW), points=("home", "turn")),
     Row("phone_battery", "the phone's battery is low", {"phone_battery": 3.0},

@@ -34,8 +34,14 @@ def seen(from_s=11.0):
     [
         (LIMITS, {}, None, {}),
         (LIMITS, {}, "it has hit the ground", {"crash": 39.9}),
-        (replace(LIMITS, may_land=True), {}, "it has hit the ground", {}),
-        (replace(LIMITS, may_land=True), {"climb_m_s": lambda _: -4.0}, "hit", {"crash": 39.9}),
+        (replace(LIMITS, may_land=True), {}, "it has hit the ground", {"crash": 39.9}),
+        # A landing: it slides and stops.
+        (
+            replace(LIMITS, may_land=True),
+            {"height_m": lambda at: 60.0 - 2 * min(at, 30.0), "airspeed_m_s": lambda at: 38 - at},
+            None,
+            {},
+        ),
         # 1.05 times the stall is 6.3 m/s; a gust of 0.3 s is none.
         (LIMITS, {"airspeed_m_s": lambda at: 6.2 if 12 <= at < 12.3 else 11.0}, None, {}),
         (LIMITS, {"airspeed_m_s": lambda at: 6.2 if at >= 12 else 11.0}, None, {"stall": 12.3}),
@@ -113,10 +119,12 @@ def setup(**changes):
         "failsafe.yml": {
             "receiver_lost": {"action": "RETURN", "delay_s": 1.0},
             "uplink_lost": {"action": "warn", "delay_s": 5.0},
+            "flight_battery_critical": {"action": "RETURN", "delay_s": 10.0},
             "fence": {"action": "RETURN", "delay_s": 0.0, "radius_m": 300.0, "ceiling_m": 55.0,
                       "floor_m": 30.0},
         },
         "return.yml": {"height_m": 25.0, "radius_m": 50.0},
+        "flight_battery.yml": {"critical_v": 9.9},
         "airframe.yml": {"receiver_lost": {"pi_may_fly": None, "return_with_motor": None}},
         "navigation.yml": {"airspeed": {
             "stall_m_s": 5.0, "minimum_m_s": 6.0, "cruise_m_s": 11.0, "maximum_m_s": 16.0}},
@@ -153,6 +161,8 @@ PERMITTED = {"receiver_lost": {"pi_may_fly": True, "return_with_motor": False}}
          ["airspeed.stall_m_s", "airspeed.minimum_m_s"], [None, 7.8]),
         (outcome("gps_lost", "below_floor", height_m=lambda at: 26.0), {},
          ["height_m", "fence.floor_m"], [44, None]),
+        (outcome("flight_battery_critical", "below_floor", height_m=lambda at: 26.0), {},
+         ["critical_v", "flight_battery_critical.delay_s"], [None, None]),
         (outcome("gps_lost", "above_ceiling"), {}, ["height_m", "fence.ceiling_m"], [40, None]),
         (outcome("gps_lost", "outside", north_m=lambda at: 320.0), {},
          ["fence.radius_m", "airspeed.cruise_m_s"], [None, None]),

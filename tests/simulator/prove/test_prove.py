@@ -6,7 +6,7 @@ import pytest
 
 from tests.support.program_output import fields_of
 from up_simulator.cli import main
-from up_simulator.prove.cases import left_out, quick, scenario_of, thorough
+from up_simulator.prove.cases import Case, left_out, limits_of, quick, scenario_of, thorough
 from up_simulator.prove.rows import CODES
 from up_simulator.prove.setup import read_setup
 from up_simulator.scenario.flight import ScenarioFlight
@@ -120,3 +120,16 @@ def test_every_row_flies_and_the_same_seeds_draw_the_same_flights(config):
 def test_what_the_configuration_does_not_have_is_left_out(config):
     setup = read_setup(config, "wing", None)
     assert {"fence_radius", "fence_floor", "flight_battery_low"} <= left_out(setup, CODES).keys()
+
+
+@pytest.mark.parametrize(
+    ("row", "gps", "blind_s"),
+    [("uplink_lost", "", 0), ("uplink_lost", "lost", 10), ("motor_stopped", "jumped", 17),
+     ("gps_lost", "", 20), ("gps_jumped", "", 15)],
+)  # fmt: skip
+def test_outside_the_fence_counts_what_the_wind_drifts_while_the_position_is_wrong(
+    config, row, gps, blind_s
+):
+    (config / "failsafe.yml").write_text("fence: {radius_m: 500}\n")
+    case = Case(row, "far", "arduino", 4.0, 180.0, "none", 1, gps)
+    assert limits_of(case, read_setup(config, "glider", None)).radius_m == 500 + 4 * blind_s

@@ -51,7 +51,8 @@ WHO = {
         "up.location.change", "up.location.update", "up.orientation.update",
     ),
     "board": (
-        "arduino.status", "up.acceleration.update", "up.ack", "up.flight.state", "up.nack",
+        "arduino.status", "up.acceleration.update", "up.ack", "up.flight.state",
+        "up.flight_battery.update", "up.nack",
         "up.orientation.update", "up.rx.update", "up.servo.update",
     ),
 }  # fmt: skip
@@ -85,6 +86,7 @@ SAMPLES = {
     "up.mission.problems": {"plan": "mission", "plan_id": "0", "problems": []},
     "up.flight.state": {"flight_mode": "FBW", "armed": True, "auto": True, "failsafe": False},
     "up.flight.limits": {},
+    "up.flight_battery.update": {"voltage": 11.1},
     "up.panic": {"panic": True, "delay_ms": 100},
     "up.system.state": {
         "utilization": 1, "memory": 1, "providers": [], "arduino_connected": True, "mode": "auto"
