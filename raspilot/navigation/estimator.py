@@ -32,9 +32,6 @@ RECEIVER_SD_M, RECEIVER_ALTITUDE_SD_M = 2.0, 3.0
 MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
 GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
-MAX_MODEL_ERROR = 0.04
-"""Part of the airspeed by which the model may be wrong. Beyond it, its drag would hide a motor
-that stopped: the model continues from the estimate."""
 FELT_BEGIN_S, FELT_END_S = 0.5, 0.2
 """How long before its arrival an acceleration was felt."""
 MEASURED_S = 2.5
@@ -96,12 +93,12 @@ class Estimator:
             return
         if not math.isfinite(forward_m_s2):
             return
+        if self._horizontal is not None and self._horizontal.is_oriented:
+            # The model's own airspeed can be wrong, and then its drag hides a missing thrust.
+            forward_m_s2 -= self._model.more_m_s2(abs(self._horizontal.factor))
         gained_m_s = self.motor.acceleration(forward_m_s2, begin, end)
         if gained_m_s is not None:
-            # With or without thrust: the airspeed differs by what it has given since.
-            self._continue_from_estimate(gained_m_s)
-            if self._horizontal is not None:
-                self._horizontal.widen(MOTOR_SD**2, 0.0)
+            self._change_thrust(gained_m_s)
 
     def compass(self, time_s: float, heading_deg: float) -> None:
         """Take a measured heading; it counts little: magnets and motors are near."""
@@ -336,9 +333,6 @@ class Estimator:
             self._measure_airspeed(at, velocity)
         variance = horizontal.p[4][4] + horizontal.p[5][5]
         self._wind.add(horizontal.x[4], horizontal.x[5], variance, dt)
-        off, sd = abs(abs(horizontal.factor) - 1.0), math.sqrt(horizontal.variances()[0])
-        if horizontal.is_oriented and off > max(MAX_MODEL_ERROR, sd):
-            self._continue_from_estimate(0.0)
 
     def _measure_airspeed(self, at: AirPoint, velocity: tuple[float, float]) -> None:
         """Take the ground velocity less the wind, along the nose."""
@@ -348,12 +342,13 @@ class Estimator:
         air = complex(*velocity) - complex(self._wind.north_m_s, self._wind.east_m_s)
         self._measured, self._measured_m_s = at, (air * nose.conjugate()).real
 
-    def _continue_from_estimate(self, gained_m_s: float) -> None:
-        """Give the model the airspeed of the estimate, and what it has gained besides."""
+    def _change_thrust(self, gained_m_s: float) -> None:
+        """Continue with or without thrust: the airspeed differs by what it has given since."""
         factor = 1.0
         if self._horizontal is not None:
             # The path is that of the estimate until now: a factor of length 1.
             factor = abs(self._horizontal.factor)
             self._multiply(complex(factor))
+            self._horizontal.widen(MOTOR_SD**2, 0.0)
         airspeed_m_s = self._model.airspeed_m_s * factor + gained_m_s
         self._model.restart(airspeed_m_s, motor_stopped=self.motor.is_stopped)
