@@ -27,7 +27,7 @@ class MotorWatch:
         self._offset_m_s2 = 0.0
         self._evidence = 0.0
         self._began: AirPoint | None = None
-        self._unseen_s = -1.0
+        self._unseen_s = -1.0  # The beginning counts as a time without orientation.
         self._time_s = float("-inf")
         self._settled_s = float("-inf")
 
