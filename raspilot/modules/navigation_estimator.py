@@ -28,6 +28,8 @@ ASSUMED_AGE_S = 0.8
 LOWEST_US, RANGE_US = 1000, 1000
 UNKNOWN_HEADING_SD_DEG, UNKNOWN_WIND_SD_M_S, UNKNOWN_ALTITUDE_SD_M = 60.0, 4.0, 100.0
 MIN_COURSE_M_S = 1.0
+MIN_VOLTAGE_SHARE = 0.7
+"""Of the highest voltage; a battery is empty above it, and below it the divider is broken."""
 
 
 class NavigationEstimator(BaseProvider[NavigationState]):
@@ -170,7 +172,8 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             # A calibration, or another battery.
             self._highest_v = 0.0
         self._highest_v = max(self._highest_v, command.voltage_v)
-        self._voltage_share = command.voltage_v / self._highest_v if self._highest_v else 1.0
+        share = command.voltage_v / self._highest_v if self._highest_v else 1.0
+        self._voltage_share = max(MIN_VOLTAGE_SHARE, share)
 
     def _on_acceleration(self, command: AccelerationCommand) -> None:
         self._is_old = True

@@ -9,7 +9,7 @@ from up.flight_modes.navigation_file import NavigationConfig
 
 STALL_MARGIN = 1.15
 """The turn's stall speed times this stays below the airspeed."""
-STOP_SEEN_S = 3.5
+STOP_SEEN_S = 2.0
 """From a silent stop of the motor until the nose is down."""
 LEAST_CLIMB_M_S = 1.0
 """Climb through the air that is permitted with less reserve: to hold the altitude in gusts."""

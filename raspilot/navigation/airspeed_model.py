@@ -19,6 +19,7 @@ class AirspeedModel:
     def __init__(self, model: AirframeModel) -> None:
         self._model = model
         self.climb_m_s = self.thrust_m_s2 = self.coast_m_s2 = 0.0
+        self._flown = 1.0, 0.0
         self._slowest = 0.85 * model.speeds.stall_m_s
         self._fastest = 2.5 * model.speeds.cruise_m_s
         self.restart(model.speeds.cruise_m_s, motor_stopped=False)
@@ -30,11 +31,18 @@ class AirspeedModel:
 
     def step(self, dt_s: float, roll_deg: float, pitch_deg: float, throttle: float) -> None:
         """Advance by ``dt_s``."""
-        speed, load = self.airspeed_m_s, load_of(roll_deg)
-        self.climb_m_s, self.coast_m_s2 = self._motion(speed, load, pitch_deg)
+        speed, self._flown = self.airspeed_m_s, (load_of(roll_deg), pitch_deg)
+        self.climb_m_s, self.coast_m_s2 = self._motion(speed, *self._flown)
         self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / speed
         change = self.coast_m_s2 + (0.0 if self.motor_stopped else self.thrust_m_s2)
         self.airspeed_m_s = self._limited(speed + change * dt_s)
+
+    def more_m_s2(self, factor: float) -> float:
+        """Return how much more the acceleration is, with thrust, at ``factor`` times the speed."""
+        speed = self._limited(factor * self.airspeed_m_s)
+        coast_m_s2 = self._motion(speed, *self._flown)[1]
+        thrust_m_s2 = self.thrust_m_s2 * self.airspeed_m_s / speed
+        return coast_m_s2 - self.coast_m_s2 + thrust_m_s2 - self.thrust_m_s2
 
     def _motion(self, speed: float, load: float, pitch_deg: float) -> tuple[float, float]:
         """Return the climb and the acceleration without thrust."""

@@ -93,6 +93,9 @@ class Estimator:
             return
         if not math.isfinite(forward_m_s2):
             return
+        if self._horizontal is not None and self._horizontal.is_oriented:
+            # The model's own airspeed can be wrong, and then its drag hides a missing thrust.
+            forward_m_s2 -= self._model.more_m_s2(abs(self._horizontal.factor))
         gained_m_s = self.motor.acceleration(forward_m_s2, begin, end)
         if gained_m_s is not None:
             self._change_thrust(gained_m_s)

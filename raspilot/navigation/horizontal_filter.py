@@ -8,9 +8,9 @@ from raspilot.navigation.air_path import AirPoint
 
 POSITION_R_M = 2.0
 VELOCITY_R_M_S = 0.4
-POSITION_Q_M, AIRSPEED_Q, THRUST_Q, YAW_Q_RAD, WIND_Q_M_S = 0.3, 0.012, 0.02, 0.006, 0.12
-"""Standard deviations after a second. The airspeed's is a part of it; ``THRUST_Q`` is added for
-each m/s that the motor has given, which is uncertain."""
+POSITION_Q_M, AIRSPEED_Q, THRUST_Q, YAW_Q_RAD, WIND_Q_M_S = 0.7, 0.012, 0.02, 0.012, 0.12
+"""Standard deviations after a second. The position's is how fast a receiver's error wanders, the
+airspeed's a part of it; ``THRUST_Q`` is added for each m/s that the motor has given."""
 GUST_M_S = 0.7
 """Standard deviation of each axis of what slow gusts add to the wind until the next fix."""
 UNSEEN_M_S, UNSEEN_RAD_S = 5.0, 0.5

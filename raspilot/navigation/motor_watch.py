@@ -10,7 +10,8 @@ MAX_EVIDENCE, CERTAIN = 1.5, 4.0
 """Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
 MAX_OFFSET_M_S2, OFFSET_S = 0.5, 20.0
 SETTLING_S = 10.0
-"""After a time without orientation: an attitude found anew may be wrong."""
+"""From the beginning of the flight, and after a time without orientation: an attitude found anew
+may be wrong."""
 
 
 class MotorWatch:
@@ -26,7 +27,7 @@ class MotorWatch:
         self._offset_m_s2 = 0.0
         self._evidence = 0.0
         self._began: AirPoint | None = None
-        self._unseen_s = 0.0
+        self._unseen_s = -1.0  # The beginning counts as a time without orientation.
         self._time_s = float("-inf")
         self._settled_s = float("-inf")
 

@@ -20,6 +20,7 @@ AIRSPEED_STEP_M_S = 0.5
 SETTLE_S = 1.0
 NEAR_BANK_DEG, BANK_DEG_PER_M = 8.0, 4.0
 """Bank limit at the ground, and how it grows with the height."""
+MIN_BELOW_HOME_M = 5.0
 
 
 def distance_m(a: Point, b: Point) -> float:
@@ -116,10 +117,16 @@ def ground_bank_deg(height_m: float, sd_m: float) -> float:
 
 
 def with_ground_bank(demand: PathDemand, state: NavigationState, home: Home | None) -> PathDemand:
-    """Return a demand with ``ground_bank_deg`` above home: without thrust it may touch down."""
+    """Return a demand with ``ground_bank_deg`` above home: without thrust it may touch down.
+
+    Surely below home, as over a valley, home's altitude is not that of the ground.
+    """
     if home is None or (demand.motor and not state.motor_stopped):
         return demand
-    limit_deg = ground_bank_deg(state.altitude_m - home.altitude_m, state.altitude_sd_m)
+    height_m, sd_m = state.altitude_m - home.altitude_m, state.altitude_sd_m
+    if height_m < -MIN_BELOW_HOME_M - 2 * sd_m:
+        return demand
+    limit_deg = ground_bank_deg(height_m, sd_m)
     if demand.bank_limit_deg is not None:
         limit_deg = min(limit_deg, demand.bank_limit_deg)
     return replace(demand, bank_limit_deg=limit_deg)

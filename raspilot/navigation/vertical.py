@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from raspilot.navigation.airframe_model import AirframeModel
+from raspilot.navigation.airframe_model import AirframeModel, load_of
 from up.earth import GRAVITY_M_S2
 from up.flight_modes.demand import PathDemand
 from up.flight_modes.navigation_file import Vertical
@@ -14,6 +14,8 @@ RATE_S = 1.0
 """Time constant of the airspeed's rate, which the estimate does not give."""
 MAX_ACCELERATION_M_S2 = 1.5
 MAX_CLIMB_M_S = 50.0
+MAX_RISEN = 0.2
+"""Greatest slope of an updraft that pitch answers at once."""
 CLIMB_CHANGE_M_S2 = 1.5
 """How fast the demanded climb changes: no faster than the motor follows."""
 SPEED_PITCH_DEG = 6.0
@@ -86,10 +88,14 @@ class EnergyControl:
         # The climb that the motor gives is the one that was seen, not the one that was expected.
         self._energy += (energy - self._energy) * min(1.0, dt_s / RATE_S)
         highest = self._speed_pitch(airspeed, least, acceleration, self._energy, load)
+        # An updraft, or an error of the model: the climb that the present pitch does not explain.
+        attack_deg = model.level_pitch_deg(airspeed, load_of(state.roll_deg))
+        risen = climb / airspeed - math.sin(math.radians(state.pitch_deg - attack_deg))
+        risen = max(-MAX_RISEN, min(MAX_RISEN, risen))
         wanted_slope = (wanted_climb - wanted_stored) / airspeed
         slope = (climb - stored) / airspeed
         base = model.level_pitch_deg(airspeed, load)
-        pitch = base + math.degrees(config.pitch_p * wanted_slope) + self._pitch_sum
+        pitch = base + math.degrees(config.pitch_p * (wanted_slope - risen)) + self._pitch_sum
         growth = math.degrees(config.pitch_i * (wanted_slope - slope)) * dt_s
         # Near the altitude gusts need more pitch, for a short time.
         limit = config.pitch_up_limit_deg

@@ -9,8 +9,9 @@ FIX_R_M, WITH_BAROMETER_R_M, BAROMETER_R_M = 2.0, 15.0, 0.7
 wander must not move the altitude: its fixes of one second count as white noise of 15 m.
 """
 BAROMETER_LOST_S = 5.0
-ALTITUDE_Q_M, CLIMB_Q_M_S, OFFSET_Q_M = 0.5, 0.3, 0.05
-"""Standard deviations after a second; ``OFFSET_Q_M`` is the barometer's."""
+ALTITUDE_Q_M, CLIMB_Q_M_S, OFFSET_Q_M = 1.1, 0.3, 0.05
+"""Standard deviations after a second: how fast a receiver's altitude wanders, the climb error's,
+the barometer's offset's."""
 WITH_BAROMETER_Q_M = 0.1
 ALTITUDE_SD_M, CLIMB_SD_M_S, OFFSET_SD_M = 1000.0, 1.0, 200.0
 CLIMB_TAU_S = 20.0

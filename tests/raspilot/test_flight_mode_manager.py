@@ -166,6 +166,9 @@ class Turn(FlightMode):
         (True, True, 8.0, -28.0),
         (True, True, 30.0, -40.0),
         (True, False, 2.0, -40.0),
+        (True, True, -10.0, -8.0),
+        # Over a valley.
+        (True, True, -12.0, -40.0),
     ],
 )
 def test_without_thrust_the_bank_is_low_near_the_ground(

@@ -26,7 +26,7 @@ class Circling:
         self.estimator.throttle(0.49)
         self.time_s = 0.0
         self.yaw_offset_deg = 40.0
-        self.shaken_deg = 0.0
+        self.shaken_deg, self.pitch_deg = 0.0, 0.9
 
     def heading_deg(self, time_s):
         return math.degrees(SPEED_M_S / RADIUS_M * time_s) % 360
@@ -45,7 +45,7 @@ class Circling:
             self.time_s = round(self.time_s + 0.02, 2)
             yaw_deg = (self.heading_deg(self.time_s) + self.yaw_offset_deg) % 360
             roll_deg = ROLL_DEG + self.shaken_deg * math.sin(4 * self.time_s)
-            self.estimator.orientation(self.time_s, roll_deg, 0.9, yaw_deg)
+            self.estimator.orientation(self.time_s, roll_deg, self.pitch_deg, yaw_deg)
             if self.time_s % 1.0 == 0.0:
                 fix = change(self.fix(self.time_s - DELAY_S))
                 if fix is not None:
@@ -242,3 +242,20 @@ def test_a_turn_that_no_orientation_showed_changes_neither_airspeed_nor_motor(ci
             assert abs(math.remainder(off_deg, 360.0)) < 6.0
             assert state.measured_airspeed_m_s == pytest.approx(SPEED_M_S, abs=0.7)
             assert circling.off_m < 10.0
+
+
+def test_an_airspeed_that_the_model_only_imagines_does_not_hide_a_stopped_motor(circling):
+    """For 40 s it glides on while the modelled thrust accelerates the model, whose drag grows."""
+
+    def feel_none(duration_s):
+        for _ in range(round(duration_s / 0.2)):
+            circling.estimator.acceleration(circling.fly(0.2).time_s, 0.0)
+        return circling.estimator.motor.is_stopped
+
+    assert not feel_none(11)
+    airframe = AirframeModel()
+    load = 1.0 / math.cos(math.radians(ROLL_DEG))
+    circling.pitch_deg = airframe.glide_pitch_deg(SPEED_M_S, load)
+    circling.estimator.throttle(0.6)
+    circling.fly(40)
+    assert feel_none(4)

@@ -217,7 +217,16 @@ def test_a_long_climb_has_the_pitch_from_which_a_stop_is_survived():
     pitch_deg = stepped(controller, PathDemand(Bank(0.0), 400.0), state, 5.0).pitch_deg
     assert pitch_deg == pytest.approx(highest_deg)
     near = PathDemand(Bank(0.0), 305.0)
-    assert stepped(controller, near, state, 5.0).pitch_deg > highest_deg + 2.0, "against a gust"
+    assert stepped(controller, near, state, 5.0).pitch_deg > highest_deg + 1.5, "against a gust"
+
+
+def test_pitch_answers_an_updraft_at_once():
+    still = replace(PointMass().state, climb_m_s=0.0)
+    level = PathDemand(Bank(0.0), 300.0)
+    base_deg = stepped(PathController(CONFIG), level, still, 0.2).pitch_deg
+    rising = replace(still, climb_m_s=1.0)
+    pitch_deg = stepped(PathController(CONFIG), level, rising, 0.2).pitch_deg
+    assert pitch_deg == pytest.approx(base_deg - 4.7, abs=0.6)
 
 
 def test_the_throttle_is_not_wound_up_by_an_unreachable_climb():
