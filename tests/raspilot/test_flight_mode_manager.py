@@ -8,6 +8,7 @@ from raspilot.flight_modes.glide import Glide
 from tests.raspilot.flight_controller_rig import BOARD, Rig
 from tests.raspilot.navigation_rig import (
     FRAME,
+    NAVIGATION,
     NavigationRig,
     flying_rig,
     refusal,

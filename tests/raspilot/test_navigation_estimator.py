@@ -6,6 +6,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from raspilot.modules.navigation_estimator import NavigationEstimator
+from raspilot.navigation.motor_watch import SETTLING_S
 from tests.support.system import build_up
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.flight_state_command import FlightBatteryCommand
@@ -62,9 +63,9 @@ class Rig:
             if round(now_s * 50) % 50 == 0:
                 self.location(now_s - DELAY_S, **changes)
 
-    def feel(self, forward_m_s2):
-        """Fly 3 s with an acceleration."""
-        for _ in range(15):
+    def feel(self, forward_m_s2, duration_s=3):
+        """Fly with an acceleration."""
+        for _ in range(round(5 * duration_s)):
             self.publish(AccelerationCommand(forward_m_s2), BOARD)
             self.fly(0.2)
 
@@ -146,7 +147,7 @@ def test_only_the_followed_source_and_valid_values_are_used(rig):
 
 def test_a_throttle_that_gives_no_thrust_is_a_stopped_motor(rig):
     rig.fly(40)
-    rig.feel(0.0)
+    rig.feel(0.0, SETTLING_S + 1)
     assert rig.module.telemetry_content["navigation"]["motor_stopped"] is False
     rig.feel(-0.9)
     assert rig.module.state.motor_stopped
@@ -157,6 +158,7 @@ def test_a_weak_battery_is_no_stopped_motor(rig):
     rig.publish(FlightBatteryCommand(36.0), BOARD)
     rig.publish(FlightBatteryCommand(12.4), BOARD)
     rig.fly(40)
+    rig.feel(0.0, SETTLING_S + 1)
     rig.publish(FlightBatteryCommand(9.0), BOARD)
     # It nearly holds the altitude; with a full battery this throttle climbs with 2 m/s.
     rig.throttle_us = round(1000 + 490 * 12.4 / 9.0)
