@@ -39,6 +39,13 @@ async function drag(page, selector, [x, y]) {
   await page.mouse.up();
 }
 
+/** Touch the map until something is drawn. */
+async function tap(ground, place) {
+  const drawn = () => ground.page.evaluate(() => sessionStorage.getItem("up.mission"));
+  const before = await drawn();
+  await ground.tapUntil(place, async () => (await drawn()) !== before);
+}
+
 const item = (number) => `.plan-point[data-point="mission ${number - 1}"]`;
 
 test("waypoints are drawn, dragged, inserted, undone, and are there after a reload", async () => {
@@ -99,10 +106,10 @@ test("with a finger an area of the fence is drawn, changed and given a hole; not
   const { page } = ground;
   await page.selectOption("#map-tool", "fence area");
   for (const place of [at(0.2, 0.3), at(0.8, 0.3), at(0.8, 0.7)]) {
-    await page.touchscreen.tap(...place);
+    await tap(ground, place);
   }
   await page.selectOption("#map-tool", "fence circle");
-  await page.touchscreen.tap(...at(0.6, 0.45));
+  await tap(ground, at(0.6, 0.45));
   await page.locator("#plan-inside").setChecked(false);
   const [area, circle] = await kept(ground, "fence");
   assert.equal(area.corners.length, 3);

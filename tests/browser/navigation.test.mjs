@@ -146,8 +146,7 @@ test("home is set where a finger touched the map; nothing without control", asyn
   const ground = await openWith(navigating(), PHONE);
   await ground.show("#panel-map");
   const { x, y, width, height } = await ground.page.locator(".map-canvas").boundingBox();
-  await ground.page.touchscreen.tap(x + width / 2, y + height * 0.75);
-  await ground.until(() => !document.querySelector(".map-actions").hidden, "what a place offers");
+  await ground.tapUntil([x + width / 2, y + height * 0.75], () => ground.page.isVisible(".map-actions"));
   assert.deepEqual(await seriousFaults(ground.page), []);
   await ground.press("#map-home-set");
   const { "up.home.set": home } = await sentAfter(ground, 1);
@@ -180,8 +179,9 @@ test("the flying view has attitude, map, RETURN and every mode on a small screen
   assert.deepEqual(await sentAfter(ground, 1), { "up.flight_mode.set": { mode: "RETURN" } });
   await ground.page.click("#map-draw");
   const { x, y, width: wide_px, height: high_px } = await ground.page.locator(".map-canvas").boundingBox();
-  await ground.page.touchscreen.tap(x + wide_px / 3, y + high_px / 2);
-  await ground.page.locator('#plan-table tr[data-item="1"]').hover();
+  const firstItem = '#plan-table tr[data-item="1"]';
+  await ground.tapUntil([x + wide_px / 3, y + high_px / 2], () => ground.page.isVisible(firstItem));
+  await ground.page.locator(firstItem).hover();
   assert.deepEqual(await outside(), []);
   await ground.page.click("#map-draw");
   assert.equal(await ground.page.isVisible("#panel-mission"), false);

@@ -24,6 +24,9 @@ function listen() {
   };
 }
 
+/** How long and how often a tap is tried. */
+const TAP_S = 3;
+const TAPS = 5;
 /** One element of each of the parts that draw themselves; one that comes later moves what is below it. */
 const PARTS = [
   "#turn > *",
@@ -79,6 +82,20 @@ export class GroundPage {
       async () => (await this.page.evaluate(condition, argument)) || null,
       () => `${what}; the page complains of ${JSON.stringify(this.seen.errors.slice(-5))}`,
     );
+  }
+
+  /** Touch a place until a condition holds: on a busy machine a tap can become a long press. */
+  async tapUntil([x, y], condition) {
+    for (let tries = 1; ; tries += 1) {
+      await this.page.touchscreen.tap(x, y);
+      try {
+        return await until(condition, "the effect of a tap", TAP_S);
+      } catch (late) {
+        if (tries === TAPS) {
+          throw late;
+        }
+      }
+    }
   }
 
   /** The text of the first element of a selector, or null. */

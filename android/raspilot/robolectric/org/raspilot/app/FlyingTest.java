@@ -63,10 +63,14 @@ public final class FlyingTest extends AppBench {
         Wait.pass(0);
     }
 
+    /** Taps until the question is there: telemetry of a busy machine can be too old for it. */
     private void tap(double northM, double eastM) throws Exception {
         TrackView.TapListener listener =
                 ReflectionHelpers.getField(find(R.id.ground_track), "tapListener");
-        listener.onTap(northM, eastM);
+        Wait.until("the question", () -> {
+            listener.onTap(northM, eastM);
+            return ShadowAlertDialog.getLatestAlertDialog() != null;
+        });
     }
 
     @Test
