@@ -278,7 +278,8 @@ class FlightModeManager(BaseFlightController):
             navigation,
             is_fallback=selector.running != selector.selected,
         )
-        demand = with_ground_bank(demand, navigation, situation.home)
+        home, has_motor = situation.home, self._has_motor
+        demand = with_ground_bank(demand, navigation, home, has_motor=has_motor)
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)

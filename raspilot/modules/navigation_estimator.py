@@ -28,8 +28,12 @@ ASSUMED_AGE_S = 0.8
 LOWEST_US, RANGE_US = 1000, 1000
 UNKNOWN_HEADING_SD_DEG, UNKNOWN_WIND_SD_M_S, UNKNOWN_ALTITUDE_SD_M = 60.0, 4.0, 100.0
 MIN_COURSE_M_S = 1.0
+LOADED = 0.8
+"""Part of the level flight's throttle from which on the battery is under load."""
+REFERENCE_RISE_V = 0.02
+"""By a single measurement: one false one changes little."""
 MIN_VOLTAGE_SHARE = 0.7
-"""Of the highest voltage; a battery is empty above it, and below it the divider is broken."""
+"""Of that voltage; a battery is empty above it, and below it the divider is broken."""
 
 
 class NavigationEstimator(BaseProvider[NavigationState]):
@@ -56,10 +60,13 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._state: NavigationState | None = None
         self._is_old = True
         self._motor_stopped = False
-        self._voltage_share, self._highest_v = 1.0, 0.0
+        self._throttle = 0.0
+        self._voltage_share, self._reference_v = 1.0, 0.0
 
     def on_init(self) -> None:
-        self.estimator = Estimator(AirframeModel(self.context.config(NAVIGATION)))
+        config = self.context.config(NAVIGATION)
+        self._level_throttle = config.performance.level_throttle
+        self.estimator = Estimator(AirframeModel(config))
         self._seconds = self.context.reactor.seconds
         self.orientation.subscribe(self._on_orientation)
         self.location.subscribe(self._on_location)
@@ -163,17 +170,22 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.estimator.compass(reading.time_s, reading.value)
 
     def _on_servos(self, command: ServoCommand) -> None:
-        throttle = (command.throttle_us - LOWEST_US) / RANGE_US
-        self.estimator.throttle(throttle * self._voltage_share)
+        self._throttle = (command.throttle_us - LOWEST_US) / RANGE_US
+        self.estimator.throttle(self._throttle * self._voltage_share)
 
     def _on_flight_battery(self, command: FlightBatteryCommand) -> None:
-        """The speed controller chops the voltage: a weak battery acts as less throttle."""
+        """The speed controller chops the voltage: a weak battery acts as less throttle.
+
+        Weak is less than the flight's highest voltage under load: the airframe's performance was
+        measured with the sag of a good battery.
+        """
         if not self.estimator.is_in_flight:
-            # A calibration, or another battery.
-            self._highest_v = 0.0
-        self._highest_v = max(self._highest_v, command.voltage_v)
-        share = command.voltage_v / self._highest_v if self._highest_v else 1.0
-        self._voltage_share = max(MIN_VOLTAGE_SHARE, share)
+            self._reference_v = 0.0
+        elif self._throttle >= LOADED * self._level_throttle:
+            known_v = self._reference_v or command.voltage_v
+            self._reference_v = max(known_v, min(command.voltage_v, known_v + REFERENCE_RISE_V))
+        share = command.voltage_v / self._reference_v if self._reference_v else 1.0
+        self._voltage_share = max(MIN_VOLTAGE_SHARE, min(1.0, share))
 
     def _on_acceleration(self, command: AccelerationCommand) -> None:
         self._is_old = True

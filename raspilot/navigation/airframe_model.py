@@ -72,6 +72,11 @@ class AirframeModel:
             return 0.0
         return max(0.0, throttle * (self._power_2 * throttle + self._power_1))
 
+    def least_climb_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
+        """Return the pitch of ``LEAST_CLIMB_M_S``."""
+        slope_deg = math.degrees(LEAST_CLIMB_M_S / airspeed_m_s)
+        return self.level_pitch_deg(airspeed_m_s, load) + slope_deg
+
     def climb_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
         """Return the greatest pitch in which the motor may stop unseen for ``STOP_SEEN_S``.
 
@@ -83,8 +88,7 @@ class AirframeModel:
         loss_m_s2 = (airspeed_m_s - least_m_s) / STOP_SEEN_S
         slope = loss_m_s2 / GRAVITY_M_S2 - self.sink_m_s(mean_m_s, load) / mean_m_s
         kept_deg = self.level_pitch_deg(mean_m_s, load) + math.degrees(slope)
-        least_deg = math.degrees(LEAST_CLIMB_M_S / airspeed_m_s)
-        return max(kept_deg, self.level_pitch_deg(airspeed_m_s, load) + least_deg)
+        return max(kept_deg, self.least_climb_pitch_deg(airspeed_m_s, load))
 
     def climb_airspeed_m_s(self, climb_m_s: float) -> float:
         """Return the least airspeed, cruise or above, whose ``climb_pitch_deg`` gives a climb."""

@@ -239,6 +239,7 @@ class Estimator:
             heading_sd_deg=min(180.0, heading_sd),
             fix_age_s=now.time_s - then.time_s,
             motor_stopped=self.motor.is_stopped,
+            motor_watched=self.motor.is_watching(now.time_s),
             measured_airspeed_m_s=self._measured_at(now),
             is_in_flight=in_flight,
         )

@@ -9,6 +9,7 @@ SIGMA_M_S2 = 0.7
 MAX_EVIDENCE, CERTAIN = 1.5, 4.0
 """Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
 MAX_OFFSET_M_S2, OFFSET_S = 0.5, 20.0
+SILENT_S = 2.0
 SETTLING_S = 10.0
 """From the beginning of the flight, and after a time without orientation: an attitude found anew
 may be wrong."""
@@ -30,6 +31,10 @@ class MotorWatch:
         self._unseen_s = -1.0  # The beginning counts as a time without orientation.
         self._time_s = float("-inf")
         self._settled_s = float("-inf")
+
+    def is_watching(self, time_s: float) -> bool:
+        """Return whether a stop would be noticed at this time."""
+        return self._settled_s <= time_s <= self._time_s + SILENT_S
 
     def acceleration(self, forward_m_s2: float, begin: AirPoint, end: AirPoint) -> float | None:
         """Take an acceleration that was felt between two points of the air path.

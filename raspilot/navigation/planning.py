@@ -116,17 +116,18 @@ def ground_bank_deg(height_m: float, sd_m: float) -> float:
     return NEAR_BANK_DEG + BANK_DEG_PER_M * max(0.0, height_m - sd_m)
 
 
-def with_ground_bank(demand: PathDemand, state: NavigationState, home: Home | None) -> PathDemand:
+def with_ground_bank(
+    demand: PathDemand, state: NavigationState, home: Home | None, *, has_motor: bool
+) -> PathDemand:
     """Return a demand with ``ground_bank_deg`` above home: without thrust it may touch down.
 
-    Surely below home, as over a valley, home's altitude is not that of the ground.
+    A demand with a limit of its own knows the ground better. Surely below home, as over a valley,
+    home's altitude is not that of the ground.
     """
-    if home is None or (demand.motor and not state.motor_stopped):
+    has_thrust = has_motor and demand.motor and not state.motor_stopped
+    if home is None or has_thrust or demand.bank_limit_deg is not None:
         return demand
     height_m, sd_m = state.altitude_m - home.altitude_m, state.altitude_sd_m
     if height_m < -MIN_BELOW_HOME_M - 2 * sd_m:
         return demand
-    limit_deg = ground_bank_deg(height_m, sd_m)
-    if demand.bank_limit_deg is not None:
-        limit_deg = min(limit_deg, demand.bank_limit_deg)
-    return replace(demand, bank_limit_deg=limit_deg)
+    return replace(demand, bank_limit_deg=ground_bank_deg(height_m, sd_m))

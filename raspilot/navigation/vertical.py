@@ -100,7 +100,8 @@ class EnergyControl:
         # Near the altitude gusts need more pitch, for a short time.
         limit = config.pitch_up_limit_deg
         if share > 0.0:
-            limit += share * min(0.0, model.climb_pitch_deg(airspeed, load) - limit)
+            reserve = model.climb_pitch_deg if state.motor_watched else model.least_climb_pitch_deg
+            limit += share * min(0.0, reserve(airspeed, load) - limit)
         up, down = min(highest, limit), -config.pitch_down_limit_deg
         if not (pitch >= up and growth > 0.0) and not (pitch <= down and growth < 0.0):
             self._pitch_sum = max(-12.0, min(12.0, self._pitch_sum + growth))

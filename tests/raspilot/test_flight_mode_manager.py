@@ -154,9 +154,10 @@ class Turn(FlightMode):
     NAME = "TURN"
     FALLBACK = "LEVEL"
     motor = True
+    bank_limit_deg = None
 
     def step(self, situation, dt_s):
-        return PathDemand(Bank(-40.0), motor=self.motor)
+        return PathDemand(Bank(-40.0), motor=self.motor, bank_limit_deg=self.bank_limit_deg)
 
 
 @pytest.mark.parametrize(
@@ -178,12 +179,30 @@ def test_without_thrust_the_bank_is_low_near_the_ground(
     """The height above home counts less its standard deviation of 3 m."""
     rig = NavigationRig(tmp_path, modes=(Turn,))
     rig.up.get_module(Turn).motor = motor
-    rig.navigation.state = replace(NAVIGATION, altitude_sd_m=3.0, motor_stopped=stopped)
+    state = replace(NAVIGATION, altitude_sd_m=3.0, motor_stopped=stopped)
+    assert turned(rig, state, height_m) == pytest.approx(roll_deg)
+
+
+def turned(rig, state, height_m):
+    """Return the bank that TURN reaches, at a height above home."""
+    rig.navigation.state = state
     rig.state()
     rig.setpoint()
     rig.outcome(FlightModeCommand("TURN"))
-    rig.navigation.state = replace(rig.navigation.state, altitude_m=250.0 + height_m)
-    assert [rig.setpoint() for _ in range(60)][-1].roll_deg == pytest.approx(roll_deg)
+    rig.navigation.state = replace(state, altitude_m=250.0 + height_m)
+    return [rig.setpoint() for _ in range(60)][-1].roll_deg
+
+
+def test_an_airframe_without_motor_has_no_thrust(tmp_path):
+    rig = NavigationRig(tmp_path, modes=(Turn,), navigation="performance:\n  motor: false\n")
+    assert turned(rig, replace(NAVIGATION, altitude_sd_m=3.0), 2.0) == pytest.approx(-8.0)
+
+
+def test_a_mode_with_a_limit_of_its_own_knows_the_ground(tmp_path):
+    rig = NavigationRig(tmp_path, modes=(Turn,))
+    rig.up.get_module(Turn).bank_limit_deg = 25.0
+    state = replace(NAVIGATION, altitude_sd_m=3.0, motor_stopped=True)
+    assert turned(rig, state, 2.0) == pytest.approx(-25.0)
 
 
 def test_a_board_mode_ends_a_mode_of_the_pi(rig):

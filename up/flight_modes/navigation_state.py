@@ -46,7 +46,8 @@ class NavigationState:
     Positions are in ``frame``; altitudes above sea level, as the receiver reports them. The wind
     is the velocity of the air over the ground. ``fix_age_s`` is the time since the newest accepted
     fix was taken: until the next one the position is dead reckoning. ``motor_stopped``: the motor
-    gives no thrust although the throttle is open. ``measured_airspeed_m_s`` is the horizontal one
+    gives no thrust although the throttle is open; ``motor_watched``: a stop would be noticed now.
+    ``measured_airspeed_m_s`` is the horizontal one
     along the nose, from the ground velocity of a fix less the wind, not from the model; None
     without such a fix. ``is_in_flight``: the ground speed has shown a flight, and no landing since.
     """
@@ -69,6 +70,7 @@ class NavigationState:
     heading_sd_deg: float
     fix_age_s: float
     motor_stopped: bool = False
+    motor_watched: bool = True
     measured_airspeed_m_s: float | None = None
     is_in_flight: bool = True
 

@@ -216,6 +216,11 @@ def test_a_long_climb_has_the_pitch_from_which_a_stop_is_survived():
     highest_deg = AirframeModel(CONFIG).climb_pitch_deg(SPEEDS.cruise_m_s, 1.0)
     pitch_deg = stepped(controller, PathDemand(Bank(0.0), 400.0), state, 5.0).pitch_deg
     assert pitch_deg == pytest.approx(highest_deg)
+    unwatched = replace(state, motor_watched=False)
+    slow = stepped(PathController(CONFIG), PathDemand(Bank(0.0), 400.0), unwatched, 5.0)
+    level_deg = AirframeModel(CONFIG).level_pitch_deg(SPEEDS.cruise_m_s, 1.0)
+    climb_m_s = SPEEDS.cruise_m_s * math.radians(slow.pitch_deg - level_deg)
+    assert climb_m_s == pytest.approx(1.0), "a stop would not be noticed"
     near = PathDemand(Bank(0.0), 305.0)
     assert stepped(controller, near, state, 5.0).pitch_deg > highest_deg + 1.5, "against a gust"
 

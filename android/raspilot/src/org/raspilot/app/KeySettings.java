@@ -99,6 +99,9 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
             } finally {
                 file.close();
             }
+            if (size == MAX_BYTES) {
+                throw new IOException("the file is too large");
+            }
             store.putCertificates(new String(bytes, 0, size, "US-ASCII"));
         } catch (IllegalArgumentException wrong) {
             tell(wrong.getMessage());

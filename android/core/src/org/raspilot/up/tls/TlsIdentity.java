@@ -54,7 +54,9 @@ public final class TlsIdentity {
         final List<X509Certificate> own = new ArrayList<>();
         byte[] key = null;
         final Matcher parts = PART.matcher(pem);
+        int missing = pem.split("-----BEGIN ", -1).length - 1;
         while (parts.find()) {
+            missing -= 1;
             final InputStream part =
                     new ByteArrayInputStream(parts.group().getBytes(Charset.forName("US-ASCII")));
             if (parts.group(1).equals("PRIVATE KEY")) {
@@ -69,6 +71,9 @@ public final class TlsIdentity {
                     trusted.setCertificateEntry("ca" + trusted.size(), each);
                 }
             }
+        }
+        if (missing != 0) {
+            throw bad("a part of it is cut off");
         }
         if (trusted.size() == 0) {
             throw bad("it has no certificate of a CA (ca.pem)");

@@ -55,6 +55,7 @@ public final class TlsIdentityTest {
         refused(parts[0].substring(0, 200) + "-----END CERTIFICATE-----");
         refused(parts[0] + parts[1] + parts[2].replace("M", "N"));
         refused(parts[0] + parts[1] + parts[2].replace("PRIVATE", "EC PRIVATE"));
+        refused(parts[0] + parts[1] + parts[2] + BEGIN + "X509 CRL-----\nMIIB");
         refused(parts[0] + BEGIN + "X509 CRL-----\nAAAA\n-----END X509 CRL-----\n");
     }
 

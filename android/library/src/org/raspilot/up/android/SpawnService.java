@@ -18,6 +18,7 @@ import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 import org.raspilot.up.net.RunnerAnswer;
 import org.raspilot.up.net.RunnerClient;
 import org.raspilot.up.net.RunnerRequest;
+import org.raspilot.up.tls.TlsIdentity;
 
 /**
  * Requests an instance from a runner and ends (thesis 3.5.1, "Intent Service"): requests run one
@@ -99,9 +100,13 @@ public final class SpawnService extends IntentService {
             String aircraft = intent.getStringExtra(AIRCRAFT);
             PairingStore keys = new PairingStore(this);
             // Secrets do not travel in an intent.
+            boolean isTls = intent.getBooleanExtra(IS_TLS, false);
+            TlsIdentity identity = isTls ? keys.certificates() : null;
+            if (isTls && identity == null) {
+                throw new IllegalArgumentException("the certificates for TLS are gone");
+            }
             client = new RunnerClient(loop, intent.getStringExtra(HOST),
-                    intent.getIntExtra(PORT, 0), intent.getBooleanExtra(IS_TLS, false)
-                            ? keys.certificates() : null,
+                    intent.getIntExtra(PORT, 0), identity,
                     new RunnerRequest(aircraft, intent.getStringExtra(PROFILE),
                             keys.get(aircraft)));
         } catch (IllegalArgumentException wrong) {
