@@ -10,9 +10,11 @@ MAX_EVIDENCE, CERTAIN = 1.5, 4.0
 """Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
 MAX_OFFSET_M_S2, OFFSET_S = 0.5, 20.0
 SILENT_S = 2.0
+DIVE_M_S2 = 1.5
+"""Acceleration without thrust of a dive: it leads to airspeeds at which the drag is not known."""
 SETTLING_S = 10.0
-"""From the beginning of the flight, and after a time without orientation: an attitude found anew
-may be wrong."""
+"""From the beginning of the flight, after a time without orientation, in which an attitude found
+anew may be wrong, and after a dive."""
 
 
 class MotorWatch:
@@ -43,9 +45,10 @@ class MotorWatch:
         """
         dt_s = end.time_s - begin.time_s
         thrust = (end.thrust_m_s - begin.thrust_m_s) / dt_s
-        rest = forward_m_s2 - (end.coast_m_s - begin.coast_m_s) / dt_s - thrust
+        coast = (end.coast_m_s - begin.coast_m_s) / dt_s
+        rest = forward_m_s2 - coast - thrust
         passed_s, self._time_s = min(dt_s, end.time_s - self._time_s), end.time_s
-        if end.unseen_s > self._unseen_s:
+        if end.unseen_s > self._unseen_s or coast > DIVE_M_S2:
             self._unseen_s = end.unseen_s
             self._settled_s = end.time_s + SETTLING_S
         if end.time_s < self._settled_s:

@@ -43,7 +43,7 @@ async function drag(page, selector, [x, y]) {
 async function tap(ground, place) {
   const drawn = () => ground.page.evaluate(() => sessionStorage.getItem("up.mission"));
   const before = await drawn();
-  await ground.tapUntil(place, async () => (await drawn()) !== before);
+  await ground.tapUntil(".map-canvas", place, async () => (await drawn()) !== before);
 }
 
 const item = (number) => `.plan-point[data-point="mission ${number - 1}"]`;
@@ -102,14 +102,14 @@ test("without a mouse a waypoint is added, moved, made another kind, raised and 
 });
 
 test("with a finger an area of the fence is drawn, changed and given a hole; nothing is too small", async () => {
-  const { ground, at } = await drawing(PHONE);
+  const { ground } = await drawing(PHONE);
   const { page } = ground;
   await page.selectOption("#map-tool", "fence area");
-  for (const place of [at(0.2, 0.3), at(0.8, 0.3), at(0.8, 0.7)]) {
+  for (const place of [[0.2, 0.3], [0.8, 0.3], [0.8, 0.7]]) {
     await tap(ground, place);
   }
   await page.selectOption("#map-tool", "fence circle");
-  await tap(ground, at(0.6, 0.45));
+  await tap(ground, [0.6, 0.45]);
   await page.locator("#plan-inside").setChecked(false);
   const [area, circle] = await kept(ground, "fence");
   assert.equal(area.corners.length, 3);

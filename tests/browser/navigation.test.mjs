@@ -145,8 +145,7 @@ test("a refused target does not select GUIDED; without home a height is above se
 test("home is set where a finger touched the map; nothing without control", async () => {
   const ground = await openWith(navigating(), PHONE);
   await ground.show("#panel-map");
-  const { x, y, width, height } = await ground.page.locator(".map-canvas").boundingBox();
-  await ground.tapUntil([x + width / 2, y + height * 0.75], () => ground.page.isVisible(".map-actions"));
+  await ground.tapUntil(".map-canvas", [0.5, 0.75], () => ground.page.isVisible(".map-actions"));
   assert.deepEqual(await seriousFaults(ground.page), []);
   await ground.press("#map-home-set");
   const { "up.home.set": home } = await sentAfter(ground, 1);
@@ -178,9 +177,8 @@ test("the flying view has attitude, map, RETURN and every mode on a small screen
   await ground.press('[data-mode="RETURN"]');
   assert.deepEqual(await sentAfter(ground, 1), { "up.flight_mode.set": { mode: "RETURN" } });
   await ground.page.click("#map-draw");
-  const { x, y, width: wide_px, height: high_px } = await ground.page.locator(".map-canvas").boundingBox();
   const firstItem = '#plan-table tr[data-item="1"]';
-  await ground.tapUntil([x + wide_px / 3, y + high_px / 2], () => ground.page.isVisible(firstItem));
+  await ground.tapUntil(".map-canvas", [1 / 3, 0.5], () => ground.page.isVisible(firstItem));
   await ground.page.locator(firstItem).hover();
   assert.deepEqual(await outside(), []);
   await ground.page.click("#map-draw");

@@ -84,10 +84,12 @@ export class GroundPage {
     );
   }
 
-  /** Touch a place until a condition holds: on a busy machine a tap can become a long press. */
-  async tapUntil([x, y], condition) {
+  /** Touch a part of an element, such as [0.5, 0.5], until a condition holds: a busy page moves what is below a part that comes late. */
+  async tapUntil(selector, [right, down], condition) {
     for (let tries = 1; ; tries += 1) {
-      await this.page.touchscreen.tap(x, y);
+      await this.show(selector);
+      const { x, y, width, height } = await this.page.locator(selector).boundingBox();
+      await this.page.touchscreen.tap(x + width * right, y + height * down);
       try {
         return await until(condition, "the effect of a tap", TAP_S);
       } catch (late) {
