@@ -12,7 +12,8 @@ from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.chart import Background, Mark, Panel, Shade
 from up_flightlog.plots.overview import Line, Overview, overview_png
 from up_flightlog.plots.track_picture import TrackView, Wind
-from up_simulator.picture.panels import PANELS, SignalPanel, crash_index, mode_bands, numbers, track
+from up_simulator.picture.panels import PANELS, SignalPanel
+from up_simulator.picture.series import crash_index, mode_bands, numbers, track
 from up_simulator.scenario.log import FlightLog
 
 COLUMN = 66

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import json
 import tempfile
-import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TextIO
 
-from up.output import StatusLine
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.track_picture import Wind
 from up_simulator.aircraft import AirframeError
@@ -26,6 +23,7 @@ from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
 from up_simulator.scenario.flight_record import FlightRecord
+from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
     Result,
@@ -35,37 +33,6 @@ from up_simulator.scenario.result import (
     verdicts_of,
 )
 from up_simulator.scenario.scenario import Scenario
-
-
-class ProgressLine:
-    """Silent if the output is not a terminal."""
-
-    def __init__(
-        self, stream: TextIO, is_shown: bool, clock: Callable[[], float] = time.monotonic
-    ) -> None:
-        self._line = StatusLine(stream, clock=clock) if is_shown else None
-        self._clock = clock
-        self._title = ""
-        self._duration_s = 0.0
-        self._began_s = 0.0
-
-    def begin(self, title: str, duration_s: float) -> None:
-        self._title, self._duration_s = title, duration_s
-        self._began_s = self._clock()
-        if self._line is not None:
-            self._line.show(f"{title}: booting")
-
-    def show(self, time_s: float) -> None:
-        """Show the time of the flight, five times a second at most."""
-        if self._line is not None:
-            speed = time_s / max(1e-3, self._clock() - self._began_s)
-            of = f"{time_s:.1f} of {self._duration_s:g} s"
-            self._line.show(f"{self._title}: {of}, {speed:.1f} x real time")
-
-    def end(self) -> None:
-        if self._line is not None:
-            self._line.clear()
-
 
 FLIGHTS = Path("run") / "flights"
 LOG, CONTROL_LOG, FLIGHT_LOG, REPORT, PICTURE, SUMMARY = (

@@ -13,13 +13,13 @@ from up.fields import printable
 from up.output import program_line
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
+from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.run import (
     FLIGHTS,
     CannotFlyError,
     Output,
-    ProgressLine,
     fly_scenario,
     try_folder,
     write_files,

@@ -1,6 +1,6 @@
 """What of a log is drawn: modes as bands, the track in metres."""
 
-from up_simulator.picture.panels import crash_index, mode_bands, numbers, track
+from up_simulator.picture.series import crash_index, mode_bands, numbers, track
 from up_simulator.scenario.log import FlightLog
 
 

@@ -1,7 +1,7 @@
 import io
 import re
 
-from up_simulator.scenario.run import ProgressLine
+from up_simulator.scenario.progress import ProgressLine
 
 
 class Terminal(io.StringIO):

@@ -6,7 +6,8 @@ import io
 from tests.support.firmware import build_firmware
 from tests.support.tools import need_tool
 from up_simulator.scenario.file import read_scenario
-from up_simulator.scenario.run import ProgressLine, fly_scenario
+from up_simulator.scenario.progress import ProgressLine
+from up_simulator.scenario.run import fly_scenario
 from up_simulator.verbs.catalogue import shipped_paths
 
 SCENARIOS = {path.stem: read_scenario(path) for path in shipped_paths()}
