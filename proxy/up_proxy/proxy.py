@@ -12,7 +12,8 @@ from up_proxy.acceptor import Acceptor
 from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
 from up_proxy.listener import StartError, listen
-from up_proxy.metrics import LoopTick, render
+from up_proxy.loop_tick import LoopTick
+from up_proxy.metrics import render
 from up_proxy.metrics_server import serve_metrics
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry

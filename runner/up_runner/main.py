@@ -16,7 +16,7 @@ from up.output import program_error
 from up.system.clock import use_monotonic_time
 from up.system.pid_file import service
 from up_runner.config import RUNNER
-from up_runner.run_folder import own_root
+from up_runner.paths import own_root
 
 
 @service()

@@ -1,16 +1,13 @@
-"""The folders and programs of a runner; its private one: PID file, sockets, records."""
+"""The folder of one runner at a time: its PID file, its sockets, its records."""
 
 from __future__ import annotations
 
 import os
 import stat
-import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from up.system.pid_file import PidFile, PidFileHeld
-from up_runner.config import RunnerConfig
 
 PID_FILE = ".runner.pid"
 """Begins with a dot, unlike the names of instances."""
@@ -93,51 +90,3 @@ class RunFolder:
         if found.st_mode & 0o077:
             text = f"the run folder {self.path} is open to other users; chmod 700 closes it"
             raise RunFolderError("open_folder", text)
-
-
-@dataclass(frozen=True, slots=True)
-class Paths:
-    """The runner's folders and programs, all absolute."""
-
-    root: Path
-    script: Path
-    python: Path
-    base: Path
-    profiles: Path
-    run: Path
-    instances: Path
-    logs: Path
-
-    @classmethod
-    def of(
-        cls, config: RunnerConfig, config_folder: Path, environ: Mapping[str, str], uid: int
-    ) -> Paths:
-        config_folder = config_folder.absolute()
-        root = Path(config.application_root or own_root()).absolute()
-        black_box = config.mode == "black box"
-        run = Path(config.run_folder or default_run_folder(environ, uid)).absolute()
-        return cls(
-            root=root,
-            script=root / config.script_path,
-            # Not resolved: the symbolic link is what makes it a virtual environment's interpreter.
-            python=Path(config.python or sys.executable).absolute(),
-            base=_in(config_folder, config.instance_config, "blackbox" if black_box else "."),
-            profiles=_in(config_folder, config.profiles_folder, "profiles"),
-            run=run,
-            instances=Path(config.instances_folder or _first(environ, "STATE_DIRECTORY") or run),
-            logs=Path(config.logs_folder or _first(environ, "LOGS_DIRECTORY") or run / ".logs"),
-        )
-
-
-def own_root() -> Path:
-    """Return the folder of this package's repository, or the working folder without one."""
-    repository = Path(__file__).resolve().parents[2]
-    return repository if (repository / "main.py").is_file() else Path.cwd()
-
-
-def _in(folder: Path, wanted: str, default: str) -> Path:
-    return folder / (wanted or default)
-
-
-def _first(environ: Mapping[str, str], variable: str) -> str:
-    return environ.get(variable, "").split(":")[0]

@@ -28,12 +28,13 @@ from up_runner.instance_host import Application, InstanceHost
 from up_runner.instances import Instances
 from up_runner.key_starts import KeyStarts
 from up_runner.log_keeper import LogKeeper
+from up_runner.paths import Paths
 from up_runner.policy import Policy, RestartPolicy
 from up_runner.request import Request
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
-from up_runner.run_folder import Paths, RunFolder, RunFolderError
+from up_runner.run_folder import RunFolder, RunFolderError
 
 KILL_DELAY_S = 5.0
 LISTEN_BACKLOG = 1024

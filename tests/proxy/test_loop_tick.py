@@ -3,7 +3,7 @@
 import pytest
 from twisted.internet.task import Clock
 
-from up_proxy.metrics import TICK_S, LoopTick
+from up_proxy.loop_tick import TICK_S, LoopTick
 
 
 def test_it_ticks_until_stopped_and_measures_its_lateness():

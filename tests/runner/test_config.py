@@ -6,7 +6,7 @@ import pytest
 
 from up.config import ConfigErrors
 from up_runner.config import RUNNER, RunnerConfig
-from up_runner.run_folder import Paths, own_root
+from up_runner.paths import Paths, own_root
 from up_runner.runner import policy_of
 
 HERE = Path("runner.yml")
