@@ -8,7 +8,7 @@ from pathlib import Path
 
 from raspilot.main import main
 from up import program
-from up.system.scheduling import GcScheduler
+from up.system.gc_scheduler import GcScheduler
 
 
 class DefaultCollector(GcScheduler):

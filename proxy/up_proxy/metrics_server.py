@@ -13,7 +13,8 @@ from twisted.web.server import Request as SiteRequest
 from twisted.web.server import Site
 
 from up.system.clock import Clock, cancel
-from up.system.http_host import LingeringConnection, names_this_machine
+from up.system.http_host import names_this_machine
+from up.system.lingering_connection import LingeringConnection
 from up_proxy.listener import cannot_listen
 from up_proxy.metrics import CONTENT_TYPE
 

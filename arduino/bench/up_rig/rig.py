@@ -7,6 +7,7 @@ import enum
 import random
 from pathlib import Path
 
+from up_rig.eeprom import Eeprom
 from up_rig.elf import Firmware, Symbol, read_firmware
 from up_rig.errors import CrashError, FirmwareError
 from up_rig.imu import Imu
@@ -16,40 +17,6 @@ from up_rig.pins import DEFAULT, PinMap
 from up_rig.receiver import Receiver
 from up_rig.serial import Serial
 from up_rig.servo import Servo
-
-SIZE = 1024
-
-
-class Eeprom:
-    """1024 bytes that outlive power."""
-
-    def __init__(self, library: ctypes.CDLL, handle: Handle) -> None:
-        self._library = library
-        self._handle = handle
-
-    def read(self, start: int = 0, size: int = SIZE) -> bytes:
-        """Return its content."""
-        cells = self._library.rig_eeprom(self._handle)
-        return bytes(cells[start : min(start + size, SIZE)])
-
-    def write(self, start: int, data: bytes) -> None:
-        """Set its content, as a programmer would; raises ``ValueError`` beyond its end."""
-        if start < 0 or start + len(data) > SIZE:
-            raise ValueError(f"the EEPROM has {SIZE} bytes")
-        cells = self._library.rig_eeprom(self._handle)
-        for offset, value in enumerate(data):
-            cells[start + offset] = value
-
-    @property
-    def writes(self) -> int:
-        """Return how many bytes the program has written."""
-        return int(self._library.rig_eeprom_writes(self._handle))
-
-    @property
-    def is_writing(self) -> bool:
-        """Return whether a write is under way (3.4 ms a byte)."""
-        return bool(self._library.rig_eeprom_is_writing(self._handle))
-
 
 CYCLES_PER_US = 16
 RAM_START, RAM_SIZE = 0x100, 2048
