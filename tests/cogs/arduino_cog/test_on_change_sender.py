@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import pytest
-from arduino_cog.modules.arduino_forward import OnChangeSender
+from arduino_cog.on_change_sender import OnChangeSender
 from hypothesis import given
 from hypothesis import strategies as st
 from twisted.internet.task import Clock

@@ -3,12 +3,8 @@
 import socket
 
 import pytest
-from discovery_cog.modules.discovery_service import (
-    Answerer,
-    DiscoveryService,
-    RateLimit,
-    own_address_towards,
-)
+from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
+from discovery_cog.modules.discovery_service import DiscoveryService
 from hypothesis import given
 from hypothesis import strategies as st
 from twisted.internet.task import Clock

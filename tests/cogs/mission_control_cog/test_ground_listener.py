@@ -6,7 +6,8 @@ import socket
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mission_control_cog.grounds import MAX_STATIONS, GroundConnection, Grounds
+from mission_control_cog.ground_connection import GroundConnection
+from mission_control_cog.grounds import MAX_STATIONS, Grounds
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 

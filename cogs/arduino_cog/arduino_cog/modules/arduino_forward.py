@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from serial_cog.config import ARDUINO
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.on_change_sender import OnChangeSender
 from arduino_cog.wire import pack_altitude, pack_heading, pack_location
 from up.base_started_module import BaseStartedModule
 from up.commands.location_command import LocationCommand
@@ -17,55 +17,6 @@ from up.providers.base_provider import Reading
 from up.providers.up_altitude_provider import UpAltitudeProvider
 from up.providers.up_heading_provider import UpHeadingProvider
 from up.providers.up_location_provider import UpLocationProvider
-from up.system.clock import Clock, Timer
-
-MIN_PERIOD_S = 0.1
-
-
-class OnChangeSender:
-    """Sends the newest payload, at most ten times a second and only when it differs.
-
-    A payload offered too early waits, and only the newest waits. ``send`` returns None for a
-    payload that was not sent; the next offer sends it again.
-    """
-
-    def __init__(self, clock: Clock, send: Callable[[bytes], object]) -> None:
-        self._clock = clock
-        self._send = send
-        self._sent: bytes | None = None
-        self._sent_s = float("-inf")
-        self._waiting: bytes | None = None
-        self._timer: Timer | None = None
-
-    def offer(self, payload: bytes) -> None:
-        if self._timer is not None:
-            self._waiting = payload
-            return
-        if payload == self._sent:
-            return
-        wait_s = self._sent_s + MIN_PERIOD_S - self._clock.seconds()
-        if wait_s > 0:
-            self._waiting = payload
-            self._timer = self._clock.callLater(wait_s, self._waited)
-            return
-        self._sent_s = self._clock.seconds()
-        self._sent = payload if self._send(payload) is not None else None
-
-    def reset(self) -> None:
-        """Discard the sent and the waiting payload: the next offer is sent to any board."""
-        self._sent = None
-        self.stop()
-
-    def stop(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-        self._timer = self._waiting = None
-
-    def _waited(self) -> None:
-        self._timer = None
-        payload, self._waiting = self._waiting, None
-        if payload is not None:
-            self.offer(payload)
 
 
 class ReadingForward(BaseStartedModule):
