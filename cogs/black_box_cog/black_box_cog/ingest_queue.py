@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -163,37 +163,3 @@ class LogForwarder:
             code = str(fields.pop("code", ""))
             number = LOG_LEVELS.get(level.name, 0)
             self._put(LogLine(number, source_of(event), text_of(event), code, fields))
-
-
-CAPACITY = 1000
-"""This much from before a flight goes into its log."""
-_MAX_LINES = 300
-
-
-class PreTriggerBuffer:
-    """The newest entries, and the older lines of the program's log."""
-
-    def __init__(self) -> None:
-        self._entries: deque[Entry] = deque()
-        self._lines: deque[Entry] = deque(maxlen=_MAX_LINES)
-
-    def add(self, entries: Iterable[Entry]) -> int:
-        """Add entries; return how many Commands were dropped for them."""
-        dropped = 0
-        for entry in entries:
-            if len(self._entries) >= CAPACITY:
-                oldest = self._entries.popleft()
-                if isinstance(oldest[1], LogLine):
-                    self._lines.append(oldest)
-                else:
-                    dropped += 1
-            self._entries.append(entry)
-        return dropped
-
-    @property
-    def entries(self) -> list[Entry]:
-        return [*self._lines, *self._entries]
-
-    def clear(self) -> None:
-        self._entries.clear()
-        self._lines.clear()

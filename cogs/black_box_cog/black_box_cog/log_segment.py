@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
-from black_box_cog.disk import Disk
 from black_box_cog.encoders import Encode, OriginTexts, encoder_of
-from black_box_cog.flight_folder import FlightFolder
 from black_box_cog.flight_metadata import FlightMetadata
 from black_box_cog.ingest_queue import Entry, LogLine, Recorded
 from black_box_cog.log_file import LogFile
-from black_box_cog.throttle import CooperativeThrottle
 from black_box_cog.timeline import Timeline
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
@@ -175,63 +171,3 @@ def _place(command: LocationCommand, time_ns: int) -> bytes:
     if command.altitude_m is not None:
         content["altitude"] = command.altitude_m
     return json.dumps(content, separators=(",", ":")).encode("ascii")
-
-
-class SegmentFactory:
-    """Opens the next file of the current flight; ``make_timeline`` creates one for a new flight.
-
-    The methods raise OSError and NoRoomError.
-    """
-
-    def __init__(
-        self,
-        folder: FlightFolder,
-        metadata: FlightMetadata,
-        disk: Disk,
-        throttle: CooperativeThrottle,
-        make_timeline: Callable[[], Timeline],
-    ) -> None:
-        self._folder = folder
-        self._metadata = metadata
-        self._disk = disk
-        self._throttle = throttle
-        self._make_timeline = make_timeline
-        self._timeline = make_timeline()
-        self._last: FlightFile | None = None
-
-    def open(self, entries: Sequence[Entry] = ()) -> LogSegment:
-        """Open a file that begins with these entries; a failure leaves no file."""
-        if self._last is None:
-            self._timeline = self._make_timeline()
-        self._folder.make_room(self._last)
-        name, descriptor = self._create()
-        file = LogFile(self._disk, name.path, descriptor)
-        try:
-            segment = LogSegment(file, name, self._timeline)
-            self._throttle.run(segment.head(self._metadata))
-            self._throttle.run(map(segment.put, entries))
-            file.flush()
-            file.sync()
-            self._disk.sync_folder(name.folder)
-        except OSError:
-            file.close()
-            with contextlib.suppress(OSError):
-                self._disk.remove(name.path)
-            raise
-        self._last = name
-        return segment
-
-    def make_room(self) -> None:
-        self._folder.make_room(self._last)
-
-    def end_flight(self) -> None:
-        self._last = None
-
-    def jump_s(self) -> float | None:
-        """Return how far the wall clock jumped from the log's time, or None."""
-        return self._timeline.jump_s()
-
-    def _create(self) -> tuple[FlightFile, int]:
-        if self._last is not None:
-            return self._folder.create_part(self._last)
-        return self._folder.create(self._timeline.start_unix_s, self._metadata.aircraft)

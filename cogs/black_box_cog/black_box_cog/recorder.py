@@ -10,10 +10,13 @@ from twisted.logger import Logger
 
 from black_box_cog.config import MEGABYTE, BlackBoxConfig
 from black_box_cog.disk import Disk
-from black_box_cog.flight_folder import DiskErrorState, FlightFolder, NoRoomError
+from black_box_cog.disk_error_state import DiskErrorState
+from black_box_cog.flight_folder import FlightFolder, NoRoomError
 from black_box_cog.flight_metadata import FlightMetadata
-from black_box_cog.ingest_queue import Entry, IngestQueue, PreTriggerBuffer, RecorderStatus
-from black_box_cog.log_segment import LogSegment, SegmentFactory
+from black_box_cog.ingest_queue import Entry, IngestQueue, RecorderStatus
+from black_box_cog.log_segment import LogSegment
+from black_box_cog.pre_trigger_buffer import PreTriggerBuffer
+from black_box_cog.segment_factory import SegmentFactory
 from black_box_cog.throttle import CooperativeThrottle
 from black_box_cog.timeline import Timeline
 from up.commands.roles import Role

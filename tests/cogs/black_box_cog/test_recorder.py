@@ -1,6 +1,7 @@
 import pytest
 from black_box_cog import throttle
-from black_box_cog.ingest_queue import CAPACITY, LogLine, Recorded
+from black_box_cog.ingest_queue import LogLine, Recorded
+from black_box_cog.pre_trigger_buffer import CAPACITY
 from black_box_cog.recorder import IDLE_END_S, IDLE_S
 
 from tests.cogs.black_box_cog.flights import (

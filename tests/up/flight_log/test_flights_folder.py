@@ -1,6 +1,6 @@
 from pathlib import Path
 
-from up.flight_log.flight_file import default_folder, folder_of
+from up.flight_log.flights_folder import default_folder, folder_of
 
 
 def test_where_flights_are_kept_by_default(monkeypatch):

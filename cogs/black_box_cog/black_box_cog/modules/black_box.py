@@ -36,6 +36,8 @@ DEFERRED_IMPORTS = (
     "up.flight_log.mcap_writer",
     "black_box_cog.timeline",
     "black_box_cog.log_segment",
+    "black_box_cog.segment_factory",
+    "black_box_cog.disk_error_state",
     "black_box_cog.recorder",
     "black_box_cog.recorder_maker",
 )
