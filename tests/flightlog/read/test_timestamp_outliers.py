@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.flightlog.logs import SECOND_NS, START_NS, LogMaker
-from up_flightlog.read.log_index import outliers
+from up_flightlog.read.timestamp_outliers import outliers
 
 STEADY = [START_NS + number * SECOND_NS // 10 for number in range(200)]
 DAMAGE = [0, 5, START_NS // 2, START_NS + 7200 * SECOND_NS, START_NS + 300 * SECOND_NS, 2**64 - 1]
