@@ -111,6 +111,6 @@ setup(
             "runner = up_runner.config:RUNNER",
             "proxy = up_proxy.config:PROXY",
         ],
-        "up.log_verbs": ["replay = up_ground.page_options:add"],
+        "up.log_verbs": ["replay = up_ground.replay.verb:add"],
     },
 )

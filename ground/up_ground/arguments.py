@@ -20,8 +20,9 @@ from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
 from up_ground.key_store import KeyStore
 from up_ground.mission_verb import add_mission
-from up_ground.page_options import add_page_options, add_replay
+from up_ground.page_options import add_page_options
 from up_ground.pair import add_pair
+from up_ground.replay.verb import add_replay
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 from up_ground.token_store import state_folder
 

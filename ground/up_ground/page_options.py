@@ -1,4 +1,4 @@
-"""The options of the verbs that serve a page, and the verb ``replay``."""
+"""The options of the verbs that serve a page."""
 
 from __future__ import annotations
 
@@ -7,9 +7,6 @@ import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
-
-from up.cli.verb import add_verb
 
 DEFAULT_LISTEN = "127.0.0.1:8080"
 _HOST_NAME = re.compile(r"[A-Za-z0-9.-]{1,253}", re.ASCII)
@@ -79,38 +76,3 @@ def _key(text: str) -> str:
     if not _KEY.fullmatch(text):
         raise argparse.ArgumentTypeError("a key is 8 to 64 letters, digits, _ and -")
     return text
-
-
-_EPILOG = """\
-FLIGHT is the number of a flight, 'last', a file of a flight (its later parts
-are taken along; or several files, the parts of one), or a folder that holds the
-parts of one. The page shows it as the ground station shows an aircraft, with a
-bar to play, pause, go to a moment and play faster or slower. It takes no
-Commands.
-
-examples
-  up-ground replay last
-  up-ground replay run/flights/receiver-lost/flight.mcap --listen 127.0.0.1:8081
-"""
-
-
-def add(verbs: Any) -> None:
-    """Add ``up log replay``, which finds flights as the other verbs of ``up log`` do."""
-    from up_flightlog.cli.parser import add_folder_options
-
-    add_folder_options(_add(verbs))
-
-
-def add_replay(verbs: Any) -> None:
-    """Add ``up-ground replay``, which has no application."""
-    _add(verbs).add_argument(
-        "--folder", metavar="DIR", help="where the black box's flights are (default: its usual one)"
-    )
-
-
-def _add(verbs: Any) -> argparse.ArgumentParser:
-    text = "play a recorded flight in the page of the ground station"
-    parser = add_verb(verbs, "replay", "up_ground.replay.replay", text, epilog=_EPILOG)
-    parser.add_argument("flight", nargs="+", metavar="FLIGHT", help="see below")
-    add_page_options(parser)
-    return parser

@@ -10,7 +10,7 @@ from twisted.python.failure import Failure
 
 from up.system.addresses import neighbourhood
 from up.system.clock import cancel
-from up.system.http_host import LingeringConnection
+from up.system.lingering_connection import LingeringConnection
 
 WAITING_LIMIT = 128
 """Connections that are not a welcomed page's."""
