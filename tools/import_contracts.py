@@ -48,7 +48,7 @@ LAYERS = (
     "base_thread_module | base_periodic_module",
     "base_started_module",
     "base_module",
-    "needs | mission",
+    "needs | vetoes | mission",
     "commands | key_ring",
     "cleanup | protocols | context",
     "tls",

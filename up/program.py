@@ -26,10 +26,13 @@ from up.log import start_logging
 from up.mode import Mode
 from up.output import print_problems
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.exit_watchdog import ExitWatchdog
+from up.system.gc_scheduler import GcScheduler
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service
 from up.system.reactor_monitor import ReactorMonitor
-from up.system.scheduling import ExitWatchdog, GcScheduler, SignalWakeup, use_realtime_priority
+from up.system.scheduling import use_realtime_priority
+from up.system.signal_wakeup import SignalWakeup
 from up.up import Up
 from up.up_loader import UpLoader
 

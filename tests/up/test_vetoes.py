@@ -1,6 +1,6 @@
 """What forbids arming."""
 
-from up.up import Vetoes
+from up.vetoes import Vetoes
 
 
 def test_set_clear_and_who_is_told():

@@ -1,13 +1,8 @@
-"""For HTTP servers: the Host header, and a close that does not lose the answer."""
-
-from __future__ import annotations
+"""Whether the Host header of an HTTP request names this machine."""
 
 import re
 from collections.abc import Collection
 from ipaddress import ip_address
-from typing import Any
-
-from twisted.protocols.policies import ProtocolWrapper
 
 _AUTHORITY = re.compile(
     r"(?:\[([0-9A-Fa-f:.]{2,45}(?:%[A-Za-z0-9._-]{1,40})?)\]|([A-Za-z0-9._-]{1,255}))"
@@ -37,22 +32,3 @@ def _is_address(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-class LingeringConnection(ProtocolWrapper):
-    """Ends its output on `loseConnection` and discards input until the peer closes.
-
-    A close while input is unread would reset the connection, and the peer would lose the answer.
-    The owner bounds the time.
-    """
-
-    transport: Any
-    disconnecting = False
-
-    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        if not self.disconnecting:
-            super().dataReceived(data)  # type: ignore[no-untyped-call]
-
-    def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        self.disconnecting = True
-        self.transport.loseWriteConnection()

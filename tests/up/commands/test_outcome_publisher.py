@@ -4,7 +4,7 @@ import pytest
 
 from tests.up.commands.samples import Border, NumberCommand
 from up.commands.answer_commands import CommandAnsweredCommand
-from up.commands.command_receiver import ANSWERS_HZ
+from up.commands.outcome_publisher import ANSWERS_HZ
 from up.commands.refusal import CommandRefusedError
 from up.protocols.general_message import MalformedMessage
 

@@ -6,8 +6,8 @@ import pytest
 
 from tests.up.protocols.golden import FROM_ARDUINO, vectors
 from up.protocols.checked_framing import CheckedDecoder
-from up.protocols.framing import ThesisDecoder
 from up.protocols.general_message import MalformedMessage, decode, encode
+from up.protocols.thesis_framing import ThesisDecoder
 
 MUTATIONS = 1_000_000
 # Each wounded frame that reaches the CRC passes it by 1 in 65536; 15 are to be expected, more

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.up.protocols.golden import FROM_ARDUINO, SIZES, cut, places, vectors
-from up.protocols.framing import ThesisDecoder, ThesisEncoder
+from up.protocols.thesis_framing import ThesisDecoder, ThesisEncoder
 
 R = b"r\x05\xdc\x05\xdc\x03\xe8\x05\xdc"
 R_FRAME = (ord("r"), R[1:], 0)

@@ -2,7 +2,7 @@
 
 import threading
 
-from up.system.scheduling import ExitWatchdog
+from up.system.exit_watchdog import ExitWatchdog
 
 
 def test_it_ends_with_the_first_status_asked_for():

@@ -5,14 +5,14 @@ import gc
 import pytest
 from twisted.internet.task import Clock
 
-from up.system import scheduling
-from up.system.scheduling import FULL_COLLECTION_EVERY, GcScheduler
+from up.system import gc_scheduler
+from up.system.gc_scheduler import FULL_COLLECTION_EVERY, GcScheduler
 
 
 @pytest.fixture
 def rounds(monkeypatch):
     found = []
-    monkeypatch.setattr(scheduling.gc, "collect", lambda generation=2: found.append(generation))
+    monkeypatch.setattr(gc_scheduler.gc, "collect", lambda generation=2: found.append(generation))
     return found
 
 
