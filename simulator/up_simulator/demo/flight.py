@@ -13,8 +13,9 @@ from typing import Any
 
 from up_ground.token_store import STATE_VARIABLE
 from up_simulator.aircraft import load_airframe
-from up_simulator.demo.config import FLIGHTS, pair_ground, unpair_ground, write_config
+from up_simulator.demo.config import FLIGHTS, write_config
 from up_simulator.demo.hints import hints, log_hints, recordings
+from up_simulator.demo.keys import pair_ground, unpair_ground
 from up_simulator.demo.page import Page
 from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError

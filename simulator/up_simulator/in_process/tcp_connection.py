@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -17,34 +16,7 @@ from zope.interface import implementer
 
 from up.system.clock import cancel
 from up_simulator.in_process.network import ADDRESS, Route
-
-GIVE_UP_S = 924.0
-"""Without a user timeout (Linux: 15 retries)."""
-_TCP = socket.IPPROTO_TCP
-
-
-class SocketOptions:
-    """Takes socket options from programs; unknown options have no effect."""
-
-    def __init__(self) -> None:
-        self._values: dict[tuple[int, int], int] = {}
-
-    @property
-    def give_up_s(self) -> float:
-        """Return how long bytes may stay unacknowledged."""
-        return self.user_timeout_s or GIVE_UP_S
-
-    @property
-    def user_timeout_s(self) -> float:
-        return self._values.get((_TCP, socket.TCP_USER_TIMEOUT), 0) / 1000
-
-    def setsockopt(self, level: int, option: int, value: int) -> None:
-        self._values[level, option] = value
-
-    def getsockopt(self, level: int, option: int, size: int = 0) -> int | bytes:
-        """Return an option, as of a socket; TCP_INFO is unknown, and all zeros."""
-        return bytes(size) if size else self._values.get((level, option), 0)
-
+from up_simulator.in_process.socket_options import SocketOptions
 
 HEADER = 40
 """Bytes of an IPv4 and a TCP header, which a link carries too."""

@@ -2,95 +2,14 @@
 
 from __future__ import annotations
 
-import atexit
-import os
-import re
 import select
-import termios
-import textwrap
-import tty
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
 
 from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.keyboard import HELP, KeyboardSticks, KeyReader
-from up_simulator.radio.sticks import RadioError, Sticks
-
-_OFF = b"\x00"
-_ITEM = re.compile(r"\S+(?: \S+)* {2,}")
-
-
-class KeyTerminal:
-    """Takes a terminal's keys without echo until ``leave``; Ctrl-C still ends the program.
-
-    The terminal is restored on every exit except kill -9: ``leave`` is called at exit, too. Raises
-    ``RadioError`` without a terminal.
-    """
-
-    def __init__(self, keys: int = 0, picture: int = 1) -> None:
-        self._keys = keys
-        self._picture = picture
-        self._is_shown = False
-        try:
-            self._saved: Any = termios.tcgetattr(keys)
-        except termios.error:
-            raise RadioError("the keyboard needs a terminal", "no_terminal") from None
-        atexit.register(self.leave)
-        tty.setcbreak(keys, termios.TCSANOW)
-        settings = termios.tcgetattr(keys)
-        # Suspended, the aircraft would stand still in the air and the shell without an echo.
-        settings[6][termios.VSUSP] = _OFF
-        termios.tcsetattr(keys, termios.TCSANOW, settings)
-
-    def fileno(self) -> int:
-        return self._keys
-
-    def read(self) -> bytes:
-        try:
-            return os.read(self._keys, 256)
-        except OSError:
-            return b""
-
-    def show(self, line: str) -> None:
-        """Show one line in the place of the last one, cut to the terminal's width."""
-        self._write(f"\r{line[: self._columns() - 1]}\x1b[K")
-        self._is_shown = True
-
-    def echo(self, text: str) -> None:
-        """Write lines that stay, wrapped by words, above the line that does not."""
-        lines = "\n".join(wrapped(line, self._columns()) for line in text.splitlines())
-        self._write(f"\r\x1b[K{lines}\n")
-        self._is_shown = False
-
-    def leave(self) -> None:
-        """Restore the terminal; keys typed for the sticks must not reach the shell."""
-        saved, self._saved = self._saved, None
-        if saved is None:
-            return
-        atexit.unregister(self.leave)
-        if self._is_shown:
-            self._write("\n")
-        with suppress(termios.error):
-            termios.tcsetattr(self._keys, termios.TCSAFLUSH, saved)
-
-    def _columns(self) -> int:
-        try:
-            return os.get_terminal_size(self._picture).columns or 80
-        except OSError:
-            return 80
-
-    def _write(self, text: str) -> None:
-        with suppress(OSError):
-            os.write(self._picture, text.encode("utf-8", "replace"))
-
-
-def wrapped(line: str, columns: int) -> str:
-    """Wrap a line to this many columns; an item's continuation is indented past its name."""
-    item = _ITEM.match(line)
-    indent = item.end() if item is not None and item.end() < columns // 2 else 0
-    return textwrap.fill(line, max(columns, 10), subsequent_indent=" " * indent)
-
+from up_simulator.radio.sticks import Sticks
+from up_simulator.radio.terminal import KeyTerminal
 
 SHOW_PERIOD_S = 0.1
 

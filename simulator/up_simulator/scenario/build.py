@@ -9,75 +9,16 @@ from typing import Any
 from up_flightlog.read.demand import DemandModel
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
-from up_simulator.aircraft.flight import FlightSource
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.harness.user_log import text_log
 from up_simulator.harness.world import World
-from up_simulator.in_process.config_folder import GROUND_PORT, merge, write_config
-from up_simulator.in_process.ground import InProcessGround
-from up_simulator.in_process.phone import InProcessPhone
-from up_simulator.in_process.raspilot import InProcessRaspilot
-from up_simulator.in_process.reactor import SimulatedReactor
+from up_simulator.in_process.config_folder import merge
 from up_simulator.scenario.flight import ScenarioFlight
 from up_simulator.scenario.line_board import LineBoard, SerialWires
-from up_simulator.scenario.participants import DaemonParticipants, Participants
+from up_simulator.scenario.participants import Participants
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.sticks import SWITCH_US, StickTimeline
-from up_simulator.scenario.workspace import Workspace
-
-
-class InProcessParticipants(DaemonParticipants):
-    """All members on one ``SimulatedReactor``, in step with the board: a reproducible flight.
-
-    ``settings`` are the airframe's configuration files; the scenario's own values override them.
-    """
-
-    def __init__(
-        self,
-        scenario: Scenario,
-        flight: FlightSource,
-        board: LineBoard,
-        settings: dict[str, dict[str, Any]],
-    ) -> None:
-        super().__init__(scenario, board)
-        self._reactor = SimulatedReactor()
-        self._workspace = Workspace()
-        config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
-        self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
-        self.raspilot = self._daemon
-        self._reactor.link(GROUND_PORT, up=self.down, down=self.up)
-        if scenario.ground is not None:
-            self.ground = InProcessGround(self._reactor, seed=scenario.seed)
-        if scenario.phone is not None:
-            self.phone = InProcessPhone(
-                self._reactor,
-                flight,
-                orientation=scenario.phone.orientation,
-                seed=scenario.seed,
-            )
-
-    def seconds(self) -> float:
-        return float(self._reactor.seconds())
-
-    def exchange(self, step_s: float) -> None:
-        self._daemon.pump(self.board)
-        self._reactor.advance(step_s)
-        self.check_raspilot()
-
-    def plug_serial(self, is_in: bool) -> None:
-        if is_in:
-            self._daemon.line.plug()
-        else:
-            self._daemon.line.unplug()
-
-    def load(self, percent: float) -> None:
-        self._daemon.meter.load = percent
-
-    def stop(self) -> None:
-        super().stop()
-        self._workspace.close()
-
 
 Notify = Callable[[str], None]
 
@@ -150,6 +91,7 @@ def _participants(
         from up_simulator.scenario.real_participants import RealParticipants
 
         return RealParticipants(scenario, dynamics, board, settings)
+    from up_simulator.scenario.in_process_participants import InProcessParticipants
 
     return InProcessParticipants(scenario, dynamics, board, settings)
 

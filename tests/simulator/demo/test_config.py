@@ -9,7 +9,8 @@ from up.config import PersistedFile
 from up.config.keys_file import KEYS, add_key, revoke_key
 from up_ground.key_store import KeyStore
 from up_simulator.aircraft import load_airframe
-from up_simulator.demo.config import pair_ground, unpair_ground, write_config
+from up_simulator.demo.config import write_config
+from up_simulator.demo.keys import pair_ground, unpair_ground
 from up_simulator.demo.main import main
 from up_simulator.harness.ports import Ports
 

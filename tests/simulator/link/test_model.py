@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.in_process.network import LinkPipe
 from up_simulator.link.model import LinkModel, LinkSettings
+from up_simulator.link.pipe import LinkPipe
 
 SETTINGS = st.builds(
     LinkSettings,

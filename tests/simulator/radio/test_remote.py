@@ -28,7 +28,7 @@ from up_simulator.harness.world import World
 from up_simulator.radio.choice import ScriptedRadio
 from up_simulator.radio.circling_pilot import CirclingPilot
 from up_simulator.radio.keyboard import HELP
-from up_simulator.radio.keyboard_radio import status_line, wrapped
+from up_simulator.radio.keyboard_radio import status_line
 from up_simulator.radio.rc_override import RadioLink
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.remote_messages import (
@@ -39,6 +39,7 @@ from up_simulator.radio.remote_messages import (
     write_sticks,
 )
 from up_simulator.radio.sticks import RadioError, Sticks, Transmitter
+from up_simulator.radio.terminal import wrapped
 
 DEADLINE_S = 30.0
 STATE = StillFlight().state

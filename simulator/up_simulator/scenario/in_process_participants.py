@@ -1,0 +1,68 @@
+"""The daemon, the phone and the ground station of a flight, all in this process."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from up_simulator.aircraft.flight import FlightSource
+from up_simulator.in_process.config_folder import GROUND_PORT, merge, write_config
+from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.in_process.raspilot import InProcessRaspilot
+from up_simulator.in_process.reactor import SimulatedReactor
+from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.participants import DaemonParticipants
+from up_simulator.scenario.scenario import Scenario
+from up_simulator.scenario.workspace import Workspace
+
+
+class InProcessParticipants(DaemonParticipants):
+    """All members on one ``SimulatedReactor``, in step with the board: a reproducible flight.
+
+    ``settings`` are the airframe's configuration files; the scenario's own values override them.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        flight: FlightSource,
+        board: LineBoard,
+        settings: dict[str, dict[str, Any]],
+    ) -> None:
+        super().__init__(scenario, board)
+        self._reactor = SimulatedReactor()
+        self._workspace = Workspace()
+        config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
+        self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
+        self.raspilot = self._daemon
+        self._reactor.link(GROUND_PORT, up=self.down, down=self.up)
+        if scenario.ground is not None:
+            self.ground = InProcessGround(self._reactor, seed=scenario.seed)
+        if scenario.phone is not None:
+            self.phone = InProcessPhone(
+                self._reactor,
+                flight,
+                orientation=scenario.phone.orientation,
+                seed=scenario.seed,
+            )
+
+    def seconds(self) -> float:
+        return float(self._reactor.seconds())
+
+    def exchange(self, step_s: float) -> None:
+        self._daemon.pump(self.board)
+        self._reactor.advance(step_s)
+        self.check_raspilot()
+
+    def plug_serial(self, is_in: bool) -> None:
+        if is_in:
+            self._daemon.line.plug()
+        else:
+            self._daemon.line.unplug()
+
+    def load(self, percent: float) -> None:
+        self._daemon.meter.load = percent
+
+    def stop(self) -> None:
+        super().stop()
+        self._workspace.close()
