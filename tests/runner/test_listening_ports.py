@@ -3,7 +3,7 @@
 import os
 import socket
 
-from up_runner.instance_host import listening_ports
+from up_runner.listening_ports import listening_ports
 
 
 def test_listeners_and_bound_datagram_sockets_count_connections_do_not():
