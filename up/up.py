@@ -21,6 +21,9 @@ from up.log.limits import Limited
 from up.needs import discard_wanted, needed_by
 from up.vetoes import Vetoes
 
+if TYPE_CHECKING:
+    from up.loading.plan import Plan
+
 LOG_INTERVAL_S = 30.0
 """A refused Command or a thread's fault is logged immediately, then as a count per interval."""
 

@@ -1,4 +1,4 @@
-"""The quota of each key: instances that run, and starts."""
+"""The quota of each key (``key quota`` of runner.yml): instances that run, and starts."""
 
 from __future__ import annotations
 

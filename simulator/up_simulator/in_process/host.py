@@ -21,6 +21,9 @@ from up.system.clock import cancel
 from up_simulator.in_process.tcp_ports import Connector, TcpPort
 from up_simulator.in_process.udp_port import UdpPort
 
+if TYPE_CHECKING:
+    from up_simulator.in_process.reactor import SimulatedReactor
+
 PRUNE_AT = 256
 
 

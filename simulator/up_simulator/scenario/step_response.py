@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import accumulate
 from statistics import fmean, median
 
@@ -28,16 +28,10 @@ class StepError(UserError):
     """These samples hold no step response."""
 
 
-@dataclass(frozen=True, slots=True)
-class StepResponse:
-    """The figures of one step, in the unit of the values; times are seconds after the step.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Shape:
+    """A curve normalised to its travel: 0 at its beginning, 1 at rest."""
 
-    Rise, overshoot and settling are relative to the travel of the response itself, from ``begin``
-    to ``final``; ``steady_error`` is its final error to the demand. A time is ``None`` if the
-    event never occurs.
-    """
-
-    begin: float
     final: float
     peak: float
     rise_time_s: float | None
@@ -47,12 +41,50 @@ class StepResponse:
     overshoot_percent: float
     settling_time_s: float | None
     """After this it stays within 5 % of the way from ``final``; ``None``: it rings or drifts."""
+    swings: int
+    """How often it crossed ``final`` after it first reached it and overshot by more than 5 %."""
+
+    @classmethod
+    def of(
+        cls,
+        after_s: Sequence[float],
+        curve: Sequence[float],
+        begin: float,
+        start: float,
+        end: float,
+    ) -> _Shape:
+        final = fmean(curve[-max(3, math.ceil(TAIL_SHARE * len(curve))) :])
+        asked = end - start
+        follows = (final - begin) / asked >= MIN_TRAVEL_SHARE
+        way = final - begin if follows else asked
+        parts = [(value - begin) / way for value in curve]
+        greatest = max(parts)
+        low_s, high_s = _reached_s(after_s, parts, 0.1), _reached_s(after_s, parts, 0.9)
+        return cls(
+            final=final,
+            peak=begin + greatest * way,
+            rise_time_s=None if low_s is None or high_s is None else high_s - low_s,
+            delay_s=low_s,
+            overshoot_percent=max(0.0, 100 * (greatest - 1)),
+            settling_time_s=_settled_s(after_s, parts),
+            swings=_swings(parts),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StepResponse(_Shape):
+    """The figures of one step, in the unit of the values; times are seconds after the step.
+
+    Rise, overshoot and settling are relative to the travel of the response itself, from ``begin``
+    to ``final``; ``steady_error`` is its final error to the demand. A time is ``None`` if the
+    event never occurs.
+    """
+
+    begin: float
     steady_error: float
     """Demand less ``final``."""
     steady_error_percent: float
     """The same in parts of the step: positive falls short, negative overshoots."""
-    swings: int
-    """How often it crossed ``final`` after it first reached it and overshot by more than 5 %."""
 
 
 def analyse_step(
@@ -91,56 +123,11 @@ def analyse_step(
     width_s = SMOOTHING_SHARE * (rough.rise_time_s or 0.0)
     shape = _Shape.of(after_s, _smoothed(after_s, curve, width_s), begin, start, end)
     return StepResponse(
+        **asdict(shape),
         begin=begin,
-        final=shape.final,
-        peak=shape.peak,
-        rise_time_s=shape.rise_time_s,
-        delay_s=shape.delay_s,
-        overshoot_percent=shape.overshoot_percent,
-        settling_time_s=shape.settling_time_s,
         steady_error=end - shape.final,
         steady_error_percent=100 * (end - shape.final) / (end - start),
-        swings=shape.swings,
     )
-
-
-@dataclass(frozen=True, slots=True)
-class _Shape:
-    """A curve normalised to its travel: 0 at its beginning, 1 at rest."""
-
-    final: float
-    peak: float
-    rise_time_s: float | None
-    delay_s: float | None
-    overshoot_percent: float
-    settling_time_s: float | None
-    swings: int
-
-    @classmethod
-    def of(
-        cls,
-        after_s: Sequence[float],
-        curve: Sequence[float],
-        begin: float,
-        start: float,
-        end: float,
-    ) -> _Shape:
-        final = fmean(curve[-max(3, math.ceil(TAIL_SHARE * len(curve))) :])
-        asked = end - start
-        follows = (final - begin) / asked >= MIN_TRAVEL_SHARE
-        way = final - begin if follows else asked
-        parts = [(value - begin) / way for value in curve]
-        greatest = max(parts)
-        low_s, high_s = _reached_s(after_s, parts, 0.1), _reached_s(after_s, parts, 0.9)
-        return cls(
-            final=final,
-            peak=begin + greatest * way,
-            rise_time_s=None if low_s is None or high_s is None else high_s - low_s,
-            delay_s=low_s,
-            overshoot_percent=max(0.0, 100 * (greatest - 1)),
-            settling_time_s=_settled_s(after_s, parts),
-            swings=_swings(parts),
-        )
 
 
 def _check(
