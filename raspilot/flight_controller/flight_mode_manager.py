@@ -12,14 +12,13 @@ from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.board_authority import AUTO, BoardAuthority
+from raspilot.flight_controller.demand_converter import DemandConverter
 from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.flight_target import FlightTarget
 from raspilot.flight_controller.home import HomeKeeper, target_of_place, telemetry_of
 from raspilot.flight_controller.required import check_required
 from raspilot.flight_modes.guided import GUIDED, Guided
 from raspilot.modules.navigation_estimator import NavigationEstimator
-from raspilot.navigation.path_controller import PathController
-from raspilot.navigation.planning import with_ground_bank
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
@@ -30,18 +29,18 @@ from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_modes.declarations import GROUND_MODES, auto_mode_problem
-from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesDemand
+from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
-from up.flight_modes.selector import DemandError, FlightModeSelector
+from up.flight_modes.selector import FlightModeSelector
 from up.mode import WITH_BOARD, Mode
 from up.needs import wants
 from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
-ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
+ATTITUDE_PAUSE_S = 0.1
 """A longer pause resets the control loop; in Panic Mode the board's frames come every 150 ms."""
 FOLLOW_S = 1.0
 """The board reports five times a second whether it follows."""
@@ -83,7 +82,6 @@ class FlightModeManager(BaseFlightController):
         self._stepped_at_s = float("-inf")
         self._resumed_at_s = float("-inf")
         self._situation: FlightSituation | None = None
-        self._path_at_s = float("-inf")
         self._target: Target | None = None
         self._resumed_place: Place | None = None
         self._requests: dict[str, float] = {}
@@ -101,8 +99,6 @@ class FlightModeManager(BaseFlightController):
         if problem_of_auto:
             self.up.vetoes.set("navigation.yml", problem_of_auto)
         self._selector.select(self._auto)
-        self._path_controller = PathController(self.config)
-        self._has_motor = self.config.performance.motor
         # With its origin the bus need not search the publisher of each Command.
         self._origin = Origin(self.class_name, Role.INTERNAL)
         self.board = BoardAuthority(
@@ -112,6 +108,7 @@ class FlightModeManager(BaseFlightController):
             self.log,
             is_output=self.attitude_controller is not None,
         )
+        self._converter = DemandConverter(self.config, self.board, self.attitude_controller)
         self.home = HomeKeeper(
             self.context.config_folder,
             self.context.reactor,
@@ -246,44 +243,16 @@ class FlightModeManager(BaseFlightController):
         self, demand: Demand, situation: FlightSituation, dt_s: float
     ) -> OutputCommand | SetpointCommand:
         self.path_demand = demand if isinstance(demand, PathDemand) else None
-        if isinstance(demand, PathDemand):
-            demand = self._attitude_of(demand, situation, dt_s)
-        # In receiver failsafe the board follows nothing but set-points that are marked so.
-        if self.attitude_controller is not None and not self.board.is_failsafe:
-            return self.attitude_controller.output(demand, situation.orientation, dt_s)
-        if isinstance(demand, SurfacesDemand):
-            raise DemandError("the Arduino's control loop takes attitudes, not surfaces")
-        throttle = None if demand.throttle is None else max(0.0, min(1.0, demand.throttle))
-        return SetpointCommand(
-            max(-90.0, min(90.0, demand.roll_deg)),
-            max(-90.0, min(90.0, demand.pitch_deg)),
-            throttle_us=None if throttle is None else round(1000 + 1000 * throttle),
-            is_failsafe=self.board.is_failsafe,
-        )
-
-    def _attitude_of(
-        self, demand: PathDemand, situation: FlightSituation, dt_s: float
-    ) -> AttitudeDemand:
-        navigation = situation.navigation
-        if navigation is None:
-            raise DemandError("a path needs a position", "navigation")
-        if situation.time_s - self._path_at_s > PATH_PAUSE_S:
-            self._path_controller.reset()
-        self._path_at_s = situation.time_s
-        selector = self._selector
-        mode = selector.modes.get(selector.selected or "")
-        self._flight_target.follow(
-            demand,
-            None if mode is None else mode.goal,
-            navigation,
-            is_fallback=selector.running != selector.selected,
-        )
-        home, has_motor = situation.home, self._has_motor
-        demand = with_ground_bank(demand, navigation, home, has_motor=has_motor)
-        attitude = self._path_controller.step(demand, navigation, dt_s)
-        if not self._has_motor:
-            attitude = replace(attitude, throttle=None)
-        return attitude
+        if self.path_demand is not None and situation.navigation is not None:
+            selector = self._selector
+            mode = selector.modes.get(selector.selected or "")
+            self._flight_target.follow(
+                self.path_demand,
+                None if mode is None else mode.goal,
+                situation.navigation,
+                is_fallback=selector.running != selector.selected,
+            )
+        return self._converter.convert(demand, situation, dt_s)
 
     def _select(self, name: str | None, *, is_choice: bool = True) -> None:
         self.choices += is_choice

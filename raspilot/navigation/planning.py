@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from raspilot.navigation.airframe_model import AirframeModel
 from up.earth import GRAVITY_M_S2
-from up.flight_modes.demand import Circle, PathDemand
-from up.flight_modes.flight_mode import Home
+from up.flight_modes.demand import Circle
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState, Point
 
@@ -20,7 +18,6 @@ AIRSPEED_STEP_M_S = 0.5
 SETTLE_S = 1.0
 NEAR_BANK_DEG, BANK_DEG_PER_M = 8.0, 4.0
 """Bank limit at the ground, and how it grows with the height."""
-MIN_BELOW_HOME_M = 5.0
 
 
 def distance_m(a: Point, b: Point) -> float:
@@ -114,20 +111,3 @@ def circle_around(
 def ground_bank_deg(height_m: float, sd_m: float) -> float:
     """Return the greatest bank for the height that is certain: near the ground a wing is low."""
     return NEAR_BANK_DEG + BANK_DEG_PER_M * max(0.0, height_m - sd_m)
-
-
-def with_ground_bank(
-    demand: PathDemand, state: NavigationState, home: Home | None, *, has_motor: bool
-) -> PathDemand:
-    """Return a demand with ``ground_bank_deg`` above home: without thrust it may touch down.
-
-    A demand with a limit of its own knows the ground better. Surely below home, as over a valley,
-    home's altitude is not that of the ground.
-    """
-    has_thrust = has_motor and demand.motor and not state.motor_stopped
-    if home is None or has_thrust or demand.bank_limit_deg is not None:
-        return demand
-    height_m, sd_m = state.altitude_m - home.altitude_m, state.altitude_sd_m
-    if height_m < -MIN_BELOW_HOME_M - 2 * sd_m:
-        return demand
-    return replace(demand, bank_limit_deg=ground_bank_deg(height_m, sd_m))

@@ -146,7 +146,7 @@ class DaemonParticipants(Participants, ABC):
             case "cpu_load_percent" if event.cpu_load_percent is not None:
                 self.load(event.cpu_load_percent)
             case "phone" | "gps" | "phone_battery":
-                """Flown without a phone."""
+                pass  # Flown without a phone.
             case kind:
                 raise ParticipantError(f"nothing in the simulator carries out '{kind}'")
 
