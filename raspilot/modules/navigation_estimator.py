@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from raspilot.navigation.airframe_model import AirframeModel
+from raspilot.navigation.battery_sag import BatterySag
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.command import BaseCommand
@@ -28,12 +29,6 @@ ASSUMED_AGE_S = 0.8
 LOWEST_US, RANGE_US = 1000, 1000
 UNKNOWN_HEADING_SD_DEG, UNKNOWN_WIND_SD_M_S, UNKNOWN_ALTITUDE_SD_M = 60.0, 4.0, 100.0
 MIN_COURSE_M_S = 1.0
-LOADED = 0.8
-"""Part of the level flight's throttle from which on the battery is under load."""
-REFERENCE_RISE_V = 0.02
-"""By a single measurement: one false one changes little."""
-MIN_VOLTAGE_SHARE = 0.7
-"""Of that voltage; a battery is empty above it, and below it the divider is broken."""
 
 
 class NavigationEstimator(BaseProvider[NavigationState]):
@@ -61,12 +56,11 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._is_old = True
         self._motor_stopped = False
         self._throttle = 0.0
-        self._voltage_share, self._reference_v = 1.0, 0.0
 
     def on_init(self) -> None:
-        config = self.context.config(NAVIGATION)
-        self._level_throttle = config.performance.level_throttle
-        self.estimator = Estimator(AirframeModel(config))
+        model = AirframeModel(self.context.config(NAVIGATION))
+        self.estimator = Estimator(model)
+        self._sag = BatterySag(model.level_throttle)
         self._seconds = self.context.reactor.seconds
         self.orientation.subscribe(self._on_orientation)
         self.location.subscribe(self._on_location)
@@ -171,21 +165,13 @@ class NavigationEstimator(BaseProvider[NavigationState]):
 
     def _on_servos(self, command: ServoCommand) -> None:
         self._throttle = (command.throttle_us - LOWEST_US) / RANGE_US
-        self.estimator.throttle(self._throttle * self._voltage_share)
+        self.estimator.throttle(self._throttle * self._sag.share)
 
     def _on_flight_battery(self, command: FlightBatteryCommand) -> None:
-        """The speed controller chops the voltage: a weak battery acts as less throttle.
-
-        Weak is less than the flight's highest voltage under load: the airframe's performance was
-        measured with the sag of a good battery.
-        """
-        if not self.estimator.is_in_flight:
-            self._reference_v = 0.0
-        elif self._throttle >= LOADED * self._level_throttle:
-            known_v = self._reference_v or command.voltage_v
-            self._reference_v = max(known_v, min(command.voltage_v, known_v + REFERENCE_RISE_V))
-        share = command.voltage_v / self._reference_v if self._reference_v else 1.0
-        self._voltage_share = max(MIN_VOLTAGE_SHARE, min(1.0, share))
+        if self.estimator.is_in_flight:
+            self._sag.measure(command.voltage_v, self._throttle)
+        else:
+            self._sag.reset()
 
     def _on_acceleration(self, command: AccelerationCommand) -> None:
         self._is_old = True
