@@ -24,12 +24,12 @@ class BatterySag:
     def reset(self) -> None:
         """Begin again: another battery, or a calibration."""
         self.share = 1.0
-        self._reference_v: float | None = None
+        self._reference_v = 0.0
 
     def measure(self, voltage_v: float, throttle: float) -> None:
         """Take a voltage (V) at a throttle of 0 to 1."""
         if throttle >= self._loaded:
-            known_v = voltage_v if self._reference_v is None else self._reference_v
+            known_v = self._reference_v or voltage_v
             self._reference_v = max(known_v, min(voltage_v, known_v + REFERENCE_RISE_V))
-        if self._reference_v is not None:
+        if self._reference_v:
             self.share = max(MIN_SHARE, min(1.0, voltage_v / self._reference_v))
