@@ -138,6 +138,22 @@ def test_a_proxy_with_a_bad_certificate_is_refused(code, make, own, proxy, stran
             shutil.copy(good / each, relay)
 
 
+@pytest.mark.parametrize(
+    ("code", "listed"),
+    [
+        ("tls_list_expired", lambda own: own.old_list()),
+        ("tls_bad_file", lambda own: (own.other.folder / "revoked.pem").read_bytes()),
+    ],
+)
+def test_a_list_that_is_old_or_of_another_ca_trusts_nobody(
+    code, listed, own, proxy, stranger, tmp_path
+):
+    shutil.copytree(own.authority.folder / "tablet", tmp_path / "tablet")
+    own.of_another_ca("posing", [SERVER])
+    (tmp_path / "tablet" / "revoked.pem").write_bytes(listed(own))
+    assert refusal(stranger, proxy.tls_port("ground"), tmp_path / "tablet") == code
+
+
 def lost(own):
     """Return the folder of a proxy whose certificate is revoked."""
     made = own.server("lost")

@@ -3,6 +3,10 @@
 import datetime as dt
 from unittest import mock
 
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes
+from cryptography.hazmat.primitives.serialization import Encoding, load_pem_private_key
+
 from up.tls import authority
 from up.tls.authority import Authority
 
@@ -31,6 +35,15 @@ class Certificates:
         (made / "ca.pem").write_bytes((self.authority.folder / "ca.pem").read_bytes())
         (made / "revoked.pem").unlink()
         return made
+
+    def old_list(self):
+        """Return the text of an empty list of revoked certificates that has expired."""
+        ca = x509.load_pem_x509_certificate((self.authority.folder / "ca.pem").read_bytes())
+        key = load_pem_private_key((self.authority.folder / "ca-key.pem").read_bytes(), None)
+        now = dt.datetime.now(dt.UTC)
+        old = x509.CertificateRevocationListBuilder().issuer_name(ca.subject)
+        old = old.last_update(now - dt.timedelta(2)).next_update(now - dt.timedelta(1))
+        return old.sign(key, hashes.SHA256()).public_bytes(Encoding.PEM)
 
     def self_signed(self):
         """Return a device whose certificate is that of a CA of its own."""

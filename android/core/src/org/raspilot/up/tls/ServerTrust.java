@@ -9,6 +9,7 @@ import java.security.cert.CertificateParsingException;
 import java.security.cert.X509CRL;
 import java.security.cert.X509Certificate;
 import java.util.Collection;
+import java.util.Date;
 import java.util.List;
 import java.util.Locale;
 import javax.net.ssl.X509TrustManager;
@@ -77,6 +78,10 @@ final class ServerTrust implements X509TrustManager {
             throw untrusted(refusal);
         }
         for (X509CRL list : revoked) {
+            if (list.getNextUpdate() != null && list.getNextUpdate().before(new Date())) {
+                throw new TlsException("tls_list_expired",
+                        "the list of revoked certificates has expired");
+            }
             if (list.isRevoked(server)) {
                 throw new TlsException("tls_revoked", "its certificate is revoked");
             }

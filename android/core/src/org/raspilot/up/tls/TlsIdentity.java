@@ -18,6 +18,7 @@ import java.security.spec.PKCS8EncodedKeySpec;
 import java.text.SimpleDateFormat;
 import java.util.ArrayList;
 import java.util.Arrays;
+import java.util.Collections;
 import java.util.List;
 import java.util.Locale;
 import java.util.regex.Matcher;
@@ -81,6 +82,9 @@ public final class TlsIdentity {
         if (own.isEmpty() != (key == null)) {
             throw bad("of certificate.pem and key.pem one is missing");
         }
+        for (X509CRL list : revoked) {
+            requireOurs(list, trusted);
+        }
         final KeyStore presented = emptyStore();
         if (key != null) {
             presented.setKeyEntry("device", keyOf(own.get(0), key), NO_PASSWORD,
@@ -142,6 +146,18 @@ public final class TlsIdentity {
         }
         engine.setEnabledProtocols(versions.toArray(new String[versions.size()]));
         return engine;
+    }
+
+    private static void requireOurs(X509CRL list, KeyStore trusted)
+            throws GeneralSecurityException {
+        for (String alias : Collections.list(trusted.aliases())) {
+            final X509Certificate each = (X509Certificate) trusted.getCertificate(alias);
+            if (each.getSubjectX500Principal().equals(list.getIssuerX500Principal())) {
+                list.verify(each.getPublicKey());
+                return;
+            }
+        }
+        throw bad("its list of revoked certificates is not of its CA");
     }
 
     private static PrivateKey keyOf(X509Certificate certificate, byte[] encoded)
