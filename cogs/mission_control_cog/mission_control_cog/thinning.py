@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from up.commands.telemetry_schema import FIELDS, READINGS, RULES
+from up.flight_log.json_message import value_at
 
 SLOW_S = 1.0
 """Counters and load values change at most this often."""
@@ -42,6 +43,19 @@ _LIVE = tree_of(dict.fromkeys((
     "uplink.left_out", "age_ms.orientation", "age_ms.flight",
 )))  # fmt: skip
 """Always new, however small the budget: attitude, alarms, events."""
+_EVENTS = tuple(
+    path.split(".")
+    for path in (
+        *(rule.path for rule in RULES if rule.path), "system.period_ms",
+        *(each.path for each in FIELDS if each.reading == "flight" and each.type != "number"),
+    )
+)  # fmt: skip
+"""A change of these is sent at once: alarms, events, and what has the age of the board's status."""
+
+
+def events_of(content: Mapping[str, Any]) -> list[Any]:
+    """Return the values of which an attitude frame may tell no change."""
+    return [value_at(content, path) for path in _EVENTS]
 
 
 class Thinning:

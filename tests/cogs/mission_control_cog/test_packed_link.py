@@ -79,11 +79,11 @@ def test_an_aircraft_that_hangs_is_found_idle(net):
 
 def test_the_lease_of_a_watched_aircraft_is_as_short_as_ever(net):
     silent, _ = net.hello_air("a", " packed=1")
-    silent.expect("UP1 watch grounds=0 packed=1\n")
+    silent.expect("UP1 watch grounds=0 packed=1 attitude=1\n")
     net.pass_time(14)
     net.air("UP1 aircraft=a\n").expect("code=taken")
     ground, _ = net.hello_ground("a", extra=" packed=1")
-    silent.expect("UP1 watch grounds=1 packed=1\n")
+    silent.expect("UP1 watch grounds=1 packed=1 attitude=0\n")
     net.pass_time(2.5, (ground,))
     net.air("UP1 aircraft=a\n").expect("code=taken")
     net.pass_time(1, (ground,))
