@@ -10,7 +10,7 @@ SLOWEST_S = 1.0
 """A frame leaves after this time whatever the budget: attitude and alarms come last to degrade."""
 USEFUL_HZ = 4.0
 """Below this rate the frames get less detail before there are fewer of them."""
-HOLDS_S = (0.0, 1.0, 3.0)
+HOLDS_S = (0.0, 1.0, 4.0)
 """Levels of detail: how old everything but attitude, alarms and events may be in a frame."""
 _RETRY_S = 30.0
 _MARGIN = 1.1

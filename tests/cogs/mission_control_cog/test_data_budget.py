@@ -61,6 +61,20 @@ def test_a_burst_of_other_data_never_silences_attitude_for_longer_than_a_second(
     assert len(HOLDS_S) == len(COSTS)
 
 
+def test_an_alarm_leaves_at_once_but_many_of_them_do_not_break_the_budget():
+    budget = DataBudget(2.7, 0.0)
+    budget.count(1000, 1.0)
+    assert budget.permits(1.0)
+    assert not budget.permits(1.1)
+    assert budget.permits(1.1, is_urgent=True)
+    sent = 0
+    for tick in range(12, 6000):
+        now_s = tick / 10
+        budget.count(250 * budget.permits(now_s, is_urgent=True), now_s)
+        sent += 1
+    assert budget.mb / (600 / 3600) == pytest.approx(2.7, rel=0.05)
+
+
 def test_a_link_whose_bytes_are_not_known_sends_every_frame():
     budget, frames = fly(3.0, 60, costs=(0, 0, 0))
     assert rate_hz(frames) == pytest.approx(10, rel=0.01)
