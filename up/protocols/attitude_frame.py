@@ -105,7 +105,7 @@ def _age_steps(content: Content, reading: str) -> int:
     age_ms = _get(content, ("age_ms", reading), None)
     if age_ms is None:
         return _NO_AGE
-    steps = round(age_ms / _AGE_STEP_MS)
+    steps: int = round(age_ms / _AGE_STEP_MS)
     if not 0 <= steps <= _OLDEST:
         raise ValueError("an age beyond the form")
     return steps

@@ -18,7 +18,7 @@ _BODY_AT = _MAC_AT + MAC_BYTES
 HEADER_BYTES = _BODY_AT - 1
 """Session, counter and MAC, between the type byte and the payload."""
 _SHORT_AT = _MAC_AT - 1
-"""A short body leaves out session and counter, but for the counter's last byte."""
+"""A short body has of session and counter only the counter's last byte."""
 BROADCAST = 1 << 31
 """Set in the ids of streams to all grounds, clear in those of sessions."""
 

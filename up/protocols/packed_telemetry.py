@@ -3,8 +3,9 @@
 A body is the type byte, three bytes and the deflate data. The three bytes, big-endian, are the
 number of the dictionary, and in their highest bit whether this frame is a key: the dictionary of
 later ones. A number is the low 23 bits of the CRC-32 of the dictionary, so that a key that is not
-the sender's is never taken for it. In place of deflate data there may be an attitude frame. Keys are packed against the previous key, after `restart`
-against `DICTIONARY`, which every reader has; all other frames can be left out.
+the sender's is never taken for it. Keys are packed against the previous key, after `restart`
+against `DICTIONARY`, which every reader has; all other frames can be left out. In place of deflate
+data there may be an attitude frame.
 """
 
 from __future__ import annotations

@@ -67,11 +67,9 @@ def test_an_alarm_leaves_at_once_but_many_of_them_do_not_break_the_budget():
     assert budget.permits(1.0)
     assert not budget.permits(1.1)
     assert budget.permits(1.1, is_urgent=True)
-    sent = 0
     for tick in range(12, 6000):
         now_s = tick / 10
         budget.count(250 * budget.permits(now_s, is_urgent=True), now_s)
-        sent += 1
     assert budget.mb / (600 / 3600) == pytest.approx(2.7, rel=0.05)
 
 

@@ -76,7 +76,7 @@ final class AttitudeFrame {
         return steps == NO_AGE ? null : steps * AGE_STEP_MS;
     }
 
-    /** Puts a copy of an object in its place and returns it; null: there is none. */
+    /** Puts a copy of an object in its place and returns it; null: it is absent. */
     @SuppressWarnings("unchecked")
     private static Map<String, Object> group(Map<String, Object> content, String name) {
         if (!(content.get(name) instanceof Map)) {
