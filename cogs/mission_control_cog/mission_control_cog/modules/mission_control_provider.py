@@ -159,10 +159,10 @@ class MissionControlProvider(BaseMissionControlProvider):
         }
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
-        """Yield the link to the proxy, unless it surely requires protection."""
+        """Yield the link to the proxy, unless it has TLS or surely requires protection."""
         server, accepts = self.config.remote_server, self.config.i_accept_plain
         requires = "require" in (server.security, self.config.secrecy)
-        if not server.url or stays_here(server.url) or requires:
+        if not server.url or stays_here(server.url) or server.tls or requires:
             return
         if server.security != "auto" or accepts:
             yield "remote_server.security", "the link to the proxy takes plain Commands"
