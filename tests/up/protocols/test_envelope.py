@@ -303,6 +303,7 @@ def attack(count, seed=1):
     air, ground, session = opened()
     bodies = [ground.seal(b'{"name":"up.arm","id":"%d"}' % number) for number in range(8)]
     bodies += [ground.hello(), air.seal_frame(b"{}"), session.answers.seal(b"{}")]
+    bodies.append(air.seal_frame(ATTITUDE))
     bodies.append(air.answer(ground.hello())[1])
     accepted = 0
     for number in range(count):
