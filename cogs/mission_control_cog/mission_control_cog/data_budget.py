@@ -33,6 +33,7 @@ class DataBudget:
         self.total_bytes = 0
         self.left_out = 0
         self.level = 0
+        self._is_low = False
         self._limit = (
             None if limit_mb_per_hour is None else limit_mb_per_hour * _SHARE * _MB / _HOUR_S
         )
@@ -91,8 +92,11 @@ class DataBudget:
         # At least a byte: without a link, or a kernel that counts, there are none.
         cost = max(1, self._level_bytes) / self._level_frames
         self._costs[self.level] = (cost, now_s)
-        if limit / cost < USEFUL_HZ:
-            self.level = min(self.level + 1, len(HOLDS_S) - 1)
+        was_low, self._is_low = self._is_low, limit / cost < USEFUL_HZ
+        if self._is_low:
+            # Twice in succession: a handshake or a session is paid for once.
+            self.level = min(self.level + was_low, len(HOLDS_S) - 1)
+            self._is_low = not was_low
         elif self.level:
             above, then_s = self._costs.get(self.level - 1, (cost, 0.0))
             if limit / above > USEFUL_HZ * _MARGIN or now_s - then_s > _RETRY_S:

@@ -49,6 +49,13 @@ def test_first_there_are_fewer_frames_then_less_detail():
     assert levels.count(1) + levels.count(2) > 0.8 * len(levels)
 
 
+def test_a_connection_that_is_made_costs_no_detail():
+    _, frames = fly(5.0, 60, extra=lambda now_s: 3000 if now_s < 0.15 else 0)
+    budget, _ = fly(5.0, 4, extra=lambda now_s: 3000 if now_s < 0.15 else 0)
+    assert budget.level == 0
+    assert {level for _, level in frames} == {0}
+
+
 def test_the_detail_comes_back():
     budget, _ = fly(4.5, 300, extra=lambda now_s: 300 if now_s < 100 and now_s % 1 < 0.05 else 0)
     assert budget.level == 0
