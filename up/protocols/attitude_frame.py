@@ -11,7 +11,7 @@ import struct
 from typing import Any
 
 from up.protocols.binary_line import PACKED
-from up.protocols.general_message import decode, encode
+from up.protocols.general_message import GeneralMessage, decode, encode
 
 _HEAD_BYTES = 4
 _MARK = 0x07
@@ -55,23 +55,29 @@ def shorten(key: bytes, frame: bytes) -> tuple[bytes, Content, Content] | None:
         )  # fmt: skip
     except (struct.error, KeyError, TypeError, ValueError):
         return None
-    _apply(before, data)
-    return data, before, after
+    return data, _applied(before, data), after
 
 
-def expand(key: bytes, data: bytes) -> bytes:
-    """Return the frame of an attitude frame and its key; raises ValueError."""
-    if len(data) != _FORM.size or data[0] != _MARK:
-        raise ValueError("not an attitude frame")
-    message = decode(key)
-    if message.beacon is None:
-        raise ValueError("an attitude frame of a key without a beacon")
-    _apply(message.data, data)
-    return encode(message.name, message.data, message.id, message.beacon + data[2])[:-1]
+class Expander:
+    """Makes whole frames of the attitude frames of one key."""
+
+    def __init__(self, key: bytes) -> None:
+        self.key = key
+        self._message: GeneralMessage | None = None
+
+    def expand(self, data: bytes) -> bytes:
+        """Return the frame of an attitude frame's data; raises ValueError."""
+        if len(data) != _FORM.size or data[0] != _MARK:
+            raise ValueError("not an attitude frame")
+        key = self._message = self._message or decode(self.key)
+        if key.beacon is None:
+            raise ValueError("an attitude frame of a key without a beacon")
+        return encode(key.name, _applied(key.data, data), key.id, key.beacon + data[2])[:-1]
 
 
-def _apply(content: Content, data: bytes) -> None:
-    """Make of a key's content that of the attitude frame."""
+def _applied(key: Content, data: bytes) -> Content:
+    """Return the content of an attitude frame: its key's, with its own values."""
+    content = {name: {**each} if type(each) is dict else each for name, each in key.items()}
     _, ages, _, left_out, clock_ms, *angles, charge = _FORM.unpack(data)
     _set(content, _LEFT_OUT, lambda value: value + left_out)
     _set(content, _CLOCK, lambda value: value + clock_ms)
@@ -86,6 +92,7 @@ def _apply(content: Content, data: bytes) -> None:
     _set(content, _VOLTAGE, lambda value: (round(value * _VOLT_STEPS) + charge) / _VOLT_STEPS)
     tenths = zip(_ANGLES, angles, strict=True)
     content["orientation"] = {name: angle / _ANGLE_STEPS for name, angle in tenths}
+    return content
 
 
 def _get(content: Content, path: tuple[str, str], default: Any) -> Any:

@@ -15,7 +15,7 @@ import zlib
 from collections.abc import Callable
 from typing import Any
 
-from up.protocols.attitude_frame import expand, is_attitude, shorten
+from up.protocols.attitude_frame import Expander, is_attitude, shorten
 from up.protocols.binary_line import PACKED
 from up.protocols.line_decoder import MAX_LINE_BYTES
 from up.protocols.packed_dictionary import DICTIONARY
@@ -89,6 +89,7 @@ class Unpacker:
 
     def __init__(self) -> None:
         self._keys = {number_of(DICTIONARY): DICTIONARY}
+        self._expander = Expander(DICTIONARY)
 
     def unpack(self, body: bytes) -> bytes:
         """Return the frame of a body, at most 16 KiB; raises PackedError."""
@@ -99,8 +100,10 @@ class Unpacker:
         if key is None:
             raise UnknownKeyError("the key of this frame was not received")
         if is_attitude(body):
+            if self._expander.key is not key:
+                self._expander = Expander(key)
             try:
-                return expand(key, body[_HEAD_BYTES:])
+                return self._expander.expand(body[_HEAD_BYTES:])
             except ValueError as fault:
                 raise PackedError(str(fault)) from None
         decoder = zlib.decompressobj(_WINDOW_BITS, key)

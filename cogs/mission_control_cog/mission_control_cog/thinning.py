@@ -50,7 +50,7 @@ _EVENTS = tuple(
         *(each.path for each in FIELDS if each.reading == "flight" and each.type != "number"),
     )
 )  # fmt: skip
-"""A change of these is sent immediately: alarms, events, and what has the age of the board's status."""
+"""A change of these is sent immediately: alarms, events, flags and texts of the board's status."""
 
 
 def events_of(content: Mapping[str, Any]) -> list[Any]:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.protocols.attitude_frame import expand, is_attitude, shorten
+from up.protocols.attitude_frame import Expander, is_attitude, shorten
 from up.protocols.packed_dictionary import DICTIONARY
 from up.protocols.packed_telemetry import PackedError, Packer, Unpacker
 
@@ -34,7 +34,7 @@ def frame(beacon=100, clock_ms=5000, **more):
 
 def read(key, new):
     found = shorten(key, new)
-    return None if found is None else json.loads(expand(key, found[0]))
+    return None if found is None else json.loads(Expander(key).expand(found[0]))
 
 
 @given(ANGLES, st.integers(0, 255), st.integers(0, 65535), st.integers(0, 14), VOLTS, VOLTS)
@@ -117,9 +117,10 @@ def test_they_stand_for_frames_until_the_key_is_old_or_they_do_not_suffice():
 
 @given(st.binary(max_size=20), st.sampled_from([DICTIONARY, frame(), b"{", b'{"name":"a"}']))
 def test_any_data_of_any_key_are_read_or_refused(data, key):
+    reader = Expander(key)
     for each in (data, b"\x07" + data[:12].ljust(12, b"\0")):
         with suppress(ValueError):
-            assert json.loads(expand(key, each))["name"] == "up.telemetry.update"
+            assert json.loads(reader.expand(each))["name"] == "up.telemetry.update"
 
 
 def test_a_wrong_one_is_a_refused_frame():
