@@ -145,11 +145,12 @@ def test_the_budget_holds_and_what_it_leaves_out_is_not_lost(net, tmp_path):
 class Board(BaseModule):
     """Circles in a climb, measured 20 times a second, the altitude twice."""
 
-    is_armed = True
+    is_armed, item = True, 1
 
     @property
     def telemetry_content(self):
-        return {"armed": self.is_armed, "age_ms": {"flight": 100}}
+        ages = {"flight": 100}
+        return {"armed": self.is_armed, "age_ms": ages, "mission": {"item": self.item}}
 
     def measure(self):
         now_s = self.context.reactor.seconds()
@@ -195,10 +196,12 @@ def test_with_a_small_budget_attitude_is_sent_alone_and_the_rest_keeps_its_age(n
         # The altitude is the time at which it was measured, to the resolution of its age.
         age_ms = 1000 * (made_s - content["altitude"])
         assert content["age_ms"]["altitude"] == pytest.approx(age_ms, abs=320)
-    for armed in (False, True, False):
-        aircraft.board.is_armed = armed
+    # What changed is there immediately: an alarm, and a value that no age would show to be old.
+    for armed, item in ((False, 1), (True, 2), (True, 3)):
+        aircraft.board.is_armed, aircraft.board.item = armed, item
         aircraft.run(0.2)
         assert ground.telemetry.flag("armed") is armed
+        assert ground.telemetry.number("mission", "item") == item
         aircraft.run(2.3)
 
 
