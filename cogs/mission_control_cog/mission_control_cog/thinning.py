@@ -38,11 +38,6 @@ _SLOW_PATHS = (
     "system.uptime_s", "navigation.sd", "navigation.wind", "home.time_s",
 )  # fmt: skip
 _SLOW = tree_of(dict.fromkeys(_SLOW_PATHS))
-_LIVE = tree_of(dict.fromkeys((
-    *(rule.path for rule in RULES), "orientation", "system.clock_ms", "system.period_ms",
-    "uplink.left_out", "age_ms.orientation", "age_ms.flight",
-)))  # fmt: skip
-"""Always new, however small the budget: attitude, alarms, events."""
 _COUNTED = ("age_ms", "counters", "system.clock_ms", "uplink.left_out", *_SLOW_PATHS)
 """Without an age of their own, and different in each frame or each second."""
 _EVENTS = sorted({
@@ -55,6 +50,11 @@ _EVENTS = sorted({
     if path not in _COUNTED and path.split(".")[0] not in _COUNTED
 })  # fmt: skip
 """Alarms, events, the board's flags and texts, and all that would be shown as new though old."""
+_LIVE = tree_of(dict.fromkeys((
+    *map(".".join, _EVENTS), "orientation", "system.clock_ms", "uplink.left_out",
+    "age_ms.orientation", "age_ms.flight",
+)))  # fmt: skip
+"""Always new, however small the budget."""
 
 
 def events_of(content: Mapping[str, Any]) -> list[Any]:
