@@ -75,6 +75,8 @@ NAMES_ALLOWED = (
     ),
     # A frame of telemetry as it was sent.
     *(("protocols/packed_dictionary.py", word) for word in ("arduino", "android")),
+    # Fields of telemetry as they are in each frame.
+    ("protocols/attitude_frame.py", '"arduino"'),
 )
 
 

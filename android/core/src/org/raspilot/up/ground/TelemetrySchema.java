@@ -64,12 +64,13 @@ public final class TelemetrySchema {
                 "servo.rudder");
         put(READING_OF, "location", "location.latitude", "location.longitude", "location.altitude",
                 "home.distance", "home.bearing", "location.satellites");
-        put(READING_OF, "navigation", "navigation.latitude", "navigation.longitude",
+        put(READING_OF, "navigation", "home.time_s", "navigation.latitude", "navigation.longitude",
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.course", "navigation.heading",
                 "navigation.wind.speed", "navigation.wind.from", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
-                "navigation.sd.heading", "navigation.motor_stopped");
+                "navigation.sd.heading", "navigation.motor_stopped", "mission.distance",
+                "fence.margin");
         put(READING_OF, "altitude", "altitude");
         put(READING_OF, "heading", "heading.actual", "heading.required");
         put(READING_OF, "flight", "flight_mode", "armed", "in_flight", "arduino.switch",
