@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Any, cast
@@ -91,7 +92,8 @@ class InProcessRaspilot:
 
     The application is found from ``root`` and configured by a folder (``write_config``). Its
     serial port is a socket in this process, whatever port its configuration names, which ``pump``
-    connects with a board; ``line`` can be unplugged. Its random numbers follow ``seed``. Signals,
+    connects with a board; ``line`` can be unplugged. So is the port of a satellite receiver,
+    ``gps_line``. Its random numbers follow ``seed``. Signals,
     the process's priority, its watchdogs and its garbage collector belong to the program, and are
     not part of this. A proxy must be configured by its address: a name would be resolved by a
     thread.
@@ -109,6 +111,7 @@ class InProcessRaspilot:
     ) -> None:
         self.meter = SettableMeter()
         self.line = SocketLine()
+        self.gps_line = SocketLine()
         self.up: Up | None = None
         self.boots = 0
         self._reactor = reactor
@@ -185,6 +188,7 @@ class InProcessRaspilot:
         self._log.close()
         host.cut_off()
         self.line.cut()
+        self.gps_line.cut()
         self.up = self._life = None
 
     def freeze(self) -> None:
@@ -212,14 +216,11 @@ class InProcessRaspilot:
         for module in up.modules:
             each: Any = module
             if module.class_name == "SerialProvider":
-                each.open_port = self._open_port
+                each.open_port = partial(_open, self.line)
+            elif module.class_name == "GpsProvider":
+                each.open_port = partial(_open, self.gps_line)
             elif module.class_name == "LoadGuard":
                 each.meter = self.meter
-
-    def _open_port(self, path: str, baud: int) -> SerialLike:
-        if not self.line.is_plugged:
-            raise SerialPortError(f"{path} is missing: is the board plugged in?")
-        return self.line.open()
 
     def _begin(self) -> None:
         assert self._life is not None
@@ -234,3 +235,9 @@ class InProcessRaspilot:
 
     def _failed(self, failure: Failure, what: str) -> None:
         self.log_source.failure(what, failure)
+
+
+def _open(line: SocketLine, path: str, baud: int) -> SerialLike:
+    if not line.is_plugged:
+        raise SerialPortError(f"{path} is missing: is the board plugged in?")
+    return line.open()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from up_simulator.aircraft.flight import FlightSource
-from up_simulator.in_process.config_folder import GROUND_PORT, merge, write_config
+from up_simulator.in_process.config_folder import GPS_PORT, GROUND_PORT, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
@@ -32,6 +32,10 @@ class InProcessParticipants(DaemonParticipants):
         super().__init__(scenario, board)
         self._reactor = SimulatedReactor()
         self._workspace = Workspace()
+        if scenario.gps is not None:
+            receiver = {"source": "ubx", "port": GPS_PORT, "rate_hz": scenario.gps.rate_hz}
+            settings = merge(settings, {"gps.yml": {"receivers": {"gps": receiver}}})
+        self._flight = flight
         config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
         self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
         self.raspilot = self._daemon
@@ -51,6 +55,8 @@ class InProcessParticipants(DaemonParticipants):
 
     def exchange(self, step_s: float) -> None:
         self._daemon.pump(self.board)
+        if self.receiver is not None:
+            self.receiver.exchange(self._daemon.gps_line, self._flight.state)
         self._reactor.advance(step_s)
         self.check_raspilot()
 
@@ -59,6 +65,12 @@ class InProcessParticipants(DaemonParticipants):
             self._daemon.line.plug()
         else:
             self._daemon.line.unplug()
+
+    def plug_receiver(self, is_in: bool) -> None:
+        if is_in:
+            self._daemon.gps_line.plug()
+        else:
+            self._daemon.gps_line.unplug()
 
     def load(self, percent: float) -> None:
         self._daemon.meter.load = percent

@@ -50,6 +50,15 @@ class PhonePart:
 
 
 @dataclass(frozen=True, slots=True)
+class GpsPart:
+    """A u-blox receiver at a serial port of the Raspberry Pi, which gps.yml then names."""
+
+    rate_hz: int = key(10, "Fixes that it is set to.", unit="Hz", minimum=1, maximum=10)
+    cold_s: float = key(0.0, "Time without a fix at first.", unit="s", minimum=0, maximum=600)
+    is_exact: bool = key(False, "Whether it has no error.", name="exact")
+
+
+@dataclass(frozen=True, slots=True)
 class GroundPart:
     """The ground station."""
 
@@ -150,6 +159,7 @@ class Scenario:
     )
     raspilot: RaspilotPart = section(RaspilotPart)
     phone: PhonePart | None = section(PhonePart, optional=True)
+    gps: GpsPart | None = section(GpsPart, optional=True)
     ground: GroundPart | None = section(GroundPart, optional=True)
     link: LinkPart = section(LinkPart)
     sticks: tuple[StickPoint, ...] = items(

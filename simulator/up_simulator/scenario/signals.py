@@ -17,7 +17,7 @@ from up.fields import suggestion
 
 _MODES = tuple(FLIGHT_MODES.values())
 _POSITIONS = tuple(SWITCH_POSITIONS.values())
-_SOURCES = ("arduino", "android")
+_SOURCES = ("arduino", "android", "gps")
 _CAUSES = tuple(RESET_CAUSES.values())
 _VALUES: dict[str, tuple[str, ...]] = {
     "board.mode": _MODES,

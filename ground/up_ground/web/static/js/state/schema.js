@@ -49,6 +49,7 @@ export const NAVIGATION_ROWS = [
   {"label": "Position sd", "path": "navigation.sd.position", "unit": "m", "decimals": 1, "optional": false},
   {"label": "Altitude sd", "path": "navigation.sd.altitude", "unit": "m", "decimals": 1, "optional": false},
   {"label": "Satellites", "path": "location.satellites", "unit": "", "decimals": 0, "optional": true},
+  {"label": "Fix accuracy", "path": "location.accuracy", "unit": "m", "decimals": 1, "optional": true},
   {"label": "Mission item", "path": "mission.item", "unit": "", "decimals": 0, "optional": true},
   {"label": "Fence", "path": "fence.margin", "unit": "m", "decimals": 0, "optional": false},
 ];
@@ -153,6 +154,9 @@ export const READING_OF = {
   "navigation.sd.airspeed": "navigation",
   "navigation.sd.heading": "navigation",
   "location.satellites": "location",
+  "location.accuracy": "location",
+  "location.fix": "location",
+  "location.pdop": "location",
   "navigation.motor_stopped": "navigation",
   "altitude": "altitude",
   "heading.actual": "heading",

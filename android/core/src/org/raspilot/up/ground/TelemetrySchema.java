@@ -63,7 +63,8 @@ public final class TelemetrySchema {
         put(READING_OF, "servo", "servo.ailerons", "servo.elevator", "servo.throttle",
                 "servo.rudder");
         put(READING_OF, "location", "location.latitude", "location.longitude", "location.altitude",
-                "home.distance", "home.bearing", "location.satellites");
+                "home.distance", "home.bearing", "location.satellites", "location.accuracy",
+                "location.fix", "location.pdop");
         put(READING_OF, "navigation", "navigation.latitude", "navigation.longitude",
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.course", "navigation.heading",
@@ -90,9 +91,9 @@ public final class TelemetrySchema {
                 "arduino.loop_us", "arduino.late_us");
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
-                "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "mission.distance", "altitude", "altitude_required", "fence.margin", "fence.radius",
-                "fence.ceiling", "fence.floor");
+                "navigation.sd.altitude", "location.accuracy", "navigation.target.altitude",
+                "navigation.target.radius", "mission.distance", "altitude", "altitude_required",
+                "fence.margin", "fence.radius", "fence.ceiling", "fence.floor");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
@@ -109,8 +110,9 @@ public final class TelemetrySchema {
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
-                "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius",
-                "altitude", "uplink.mb_in_an_hour", "black_box.megabytes");
+                "navigation.sd.heading", "location.accuracy", "location.pdop",
+                "navigation.target.altitude", "navigation.target.radius", "altitude",
+                "uplink.mb_in_an_hour", "black_box.megabytes");
         put(DECIMALS, 6, "location.latitude", "location.longitude", "home.latitude",
                 "home.longitude", "navigation.latitude", "navigation.longitude",
                 "navigation.target.latitude", "navigation.target.longitude");
@@ -171,9 +173,11 @@ public final class TelemetrySchema {
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
         NAVIGATION.put("Satellites", "location.satellites");
+        NAVIGATION.put("Fix accuracy", "location.accuracy");
         NAVIGATION.put("Mission item", "mission.item");
         NAVIGATION.put("Fence", "fence.margin");
         OPTIONAL.put("location.satellites", true);
+        OPTIONAL.put("location.accuracy", true);
         OPTIONAL.put("mission.item", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",
