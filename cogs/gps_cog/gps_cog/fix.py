@@ -14,7 +14,7 @@ HDOP_M = 2.5
 
 @dataclass(frozen=True, slots=True)
 class GpsFix:
-    """Unknown values are None. ``kind`` is None without a fix.
+    """None stands for an unknown value; ``kind``: for a receiver without a fix.
 
     ``stamp_s`` is the time of the measurement by the receiver's clock, whose zero differs between
     the formats. The altitude is above the sea, the course over the ground, clockwise from north.

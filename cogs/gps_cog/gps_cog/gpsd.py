@@ -23,7 +23,7 @@ STATUS_KINDS = {2: "dgps", 3: "rtk", 4: "rtk"}
 class GpsdDecoder:
     """Turns the reports TPV, SKY and GST of one device into fixes; others are ignored.
 
-    What is not understood is dropped and counted.
+    Malformed reports are dropped and counted.
     """
 
     PERIOD_S = 0.0

@@ -21,13 +21,13 @@ MAX_LINE_BYTES = 128
 DETAILS_AGE_S = 5.0
 """How long the accuracy and the dilution of a receiver that no longer sends them are used."""
 KINDS = {1: "3d", 2: "dgps", 4: "rtk", 5: "rtk"}
-"""By the quality of GGA. Estimated, manual and simulated positions are no fix."""
+"""By the quality of GGA. Estimated, manual and simulated positions are dropped."""
 MEASURED_MODES = "ADFRP"
 _USED = (b"GGA", b"RMC", b"GSA", b"GST")
 
 
 class NmeaDecoder:
-    """Turns bytes into fixes; what is not understood is dropped and counted.
+    """Turns bytes into fixes; noise and damaged sentences are dropped and counted.
 
     A fix is complete when GGA and RMC of one time have arrived, or the one of them that the
     receiver sends at all. GSA and GST only add to it.

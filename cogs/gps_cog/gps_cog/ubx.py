@@ -21,7 +21,7 @@ WEEK_S = 604800.0
 
 
 class UbxDecoder:
-    """Turns bytes into fixes; what is not understood is dropped and counted."""
+    """Turns bytes into fixes; noise and damaged messages are dropped and counted."""
 
     PERIOD_S = WEEK_S
 
@@ -113,7 +113,7 @@ def set_up(rate_hz: int, baud_rate: int) -> bytes:
         UBXMessage("CFG", "CFG-RATE", SET, measRate=period_ms, navRate=1, timeRef=1),
         UBXMessage("CFG", "CFG-NAV5", SET, dyn=1, dynModel=AIRBORNE_4G),
         UBXMessage("CFG", "CFG-MSG", SET, msgClass=1, msgID=7, rateUART1=1, rateUSB=1),
-        # Last: what follows would be sent at the old speed.
+        # Last: it changes the speed.
         UBXMessage("CFG", "CFG-PRT", SET, portID=1, baudRate=baud_rate, **uart),
     ]
     return b"".join(each.serialize() for each in messages)

@@ -36,6 +36,7 @@ class Participants:
     raspilot: Raspilot | None = None
     ground: InProcessGround | None = None
     phone: InProcessPhone | None = None
+    receiver: UbxReceiver | None = None
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
     """The files, by name, that a real daemon has recorded; available after ``stop``."""
 

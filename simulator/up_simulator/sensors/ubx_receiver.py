@@ -58,6 +58,11 @@ class UbxReceiver:
         self._due_s = -math.inf
         self._input = bytearray()
 
+    @property
+    def wander_m(self) -> tuple[float, float, float]:
+        """Return the slow error of the fixes now: north, east, up."""
+        return self._gps.wander_m
+
     def set_state(self, state: GpsState) -> None:
         self._gps.gps = state
 

@@ -1,4 +1,4 @@
-"""NMEA sentences become fixes; what is damaged is dropped and counted."""
+"""NMEA sentences become fixes; damaged ones are dropped and counted."""
 
 import math
 
