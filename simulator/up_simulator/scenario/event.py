@@ -97,6 +97,9 @@ class Event:
     gps_receiver: Literal["unplugged", "lost", "jumped", "frozen", "back"] | None = key(
         None, "The receiver beside the phone. unplugged: its port is gone; else as gps."
     )
+    i2c: Literal["unplugged", "back"] | None = key(
+        None, "The wire to all sensors at the I2C bus: every transfer fails."
+    )
     motor: Literal["stopped", "back"] | None = key(
         None, "stopped: the motor gives no thrust, whatever the throttle, and nothing reports it."
     )

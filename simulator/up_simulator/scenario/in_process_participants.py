@@ -14,6 +14,10 @@ from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import DaemonParticipants
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.workspace import Workspace
+from up_simulator.sensors.chips import bus_of
+
+I2C_PERIOD_S = 0.02
+"""How often the chips measure."""
 
 
 class InProcessParticipants(DaemonParticipants):
@@ -35,9 +39,14 @@ class InProcessParticipants(DaemonParticipants):
         if scenario.gps is not None:
             receiver = {"source": "ubx", "port": GPS_PORT, "rate_hz": scenario.gps.rate_hz}
             settings = merge(settings, {"gps.yml": {"receivers": {"gps": receiver}}})
+        if scenario.sensors:
+            sensors = {name: {"chip": name} for name in scenario.sensors}
+            settings = merge(settings, {"sensors.yml": {"sensors": sensors}})
         self._flight = flight
         config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
         self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
+        self._daemon.i2c = bus_of(scenario.sensors, scenario.seed)
+        self._i2c_due_s = 0.0
         self.raspilot = self._daemon
         self._reactor.link(GROUND_PORT, up=self.down, down=self.up)
         if scenario.ground is not None:
@@ -57,6 +66,9 @@ class InProcessParticipants(DaemonParticipants):
         self._daemon.pump(self.board)
         if self.receiver is not None:
             self.receiver.exchange(self._daemon.gps_line, self._flight.state)
+        if self.scenario.sensors and self.seconds() >= self._i2c_due_s:
+            self._i2c_due_s = self.seconds() + I2C_PERIOD_S
+            self._daemon.i2c.update(self._flight.state)
         self._reactor.advance(step_s)
         self.check_raspilot()
 
@@ -65,6 +77,9 @@ class InProcessParticipants(DaemonParticipants):
             self._daemon.line.plug()
         else:
             self._daemon.line.unplug()
+
+    def plug_i2c(self, is_in: bool) -> None:
+        self._daemon.i2c.fails = lambda: not is_in
 
     def plug_receiver(self, is_in: bool) -> None:
         if is_in:

@@ -109,6 +109,10 @@ class DaemonParticipants(Participants, ABC):
     def plug_serial(self, is_in: bool) -> None:
         """Attach or remove the serial port."""
 
+    def plug_i2c(self, is_in: bool) -> None:
+        """Attach or remove the sensors at the I2C bus; raises ParticipantError if impossible."""
+        raise ParticipantError("sensors at the I2C bus fly only in process")
+
     @abstractmethod
     def plug_receiver(self, is_in: bool) -> None:
         """Attach or remove the serial port of the satellite receiver."""
@@ -152,6 +156,8 @@ class DaemonParticipants(Participants, ABC):
                     self.plug_receiver(event.gps_receiver == "back")
                 if event.gps_receiver != "unplugged":
                     self.receiver.set_state(event.gps_receiver or "back")
+            case "i2c":
+                self.plug_i2c(event.i2c == "back")
             case "phone_battery" if phone is not None and event.phone_battery is not None:
                 phone.set_battery(event.phone_battery)
             case "link":

@@ -18,6 +18,7 @@ from up_simulator.scenario.initial_conditions import (
     WeatherPart,
 )
 from up_simulator.scenario.sticks import StickPoint
+from up_simulator.sensors.chips import CHIPS
 
 _NAME = Constraint(str, max_length=128)
 _TEXT = Constraint(str, max_length=4096)
@@ -160,6 +161,11 @@ class Scenario:
     raspilot: RaspilotPart = section(RaspilotPart)
     phone: PhonePart | None = section(PhonePart, optional=True)
     gps: GpsPart | None = section(GpsPart, optional=True)
+    sensors: tuple[str, ...] = items(
+        Constraint(str, choices=tuple(CHIPS)),
+        "Chips at the I2C bus of the Raspberry Pi, which sensors.yml then names; in process only.",
+        max_length=8,
+    )
     ground: GroundPart | None = section(GroundPart, optional=True)
     link: LinkPart = section(LinkPart)
     sticks: tuple[StickPoint, ...] = items(
@@ -174,6 +180,8 @@ class Scenario:
     def problems(self) -> Iterator[tuple[str, str]]:
         if not self.title:
             yield "title", "must be a short title of the flight"
+        if self.sensors and self.is_real:
+            yield "sensors", "fly only with 'runs: in process'"
         if not self.expect:
             yield "expect", "must contain at least one expectation"
 

@@ -176,6 +176,7 @@ export const READING_OF = {
   "arduino.late_us": "flight",
   "arduino.frame_errors": "flight",
   "arduino.flight_battery_v": "flight",
+  "arduino.flight_battery_a": "flight",
   "arduino.flight_battery_low": "flight",
   "arduino.flight_battery_critical": "flight",
   "android.batteryLevel": "battery",

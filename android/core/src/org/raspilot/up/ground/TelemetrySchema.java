@@ -77,7 +77,8 @@ public final class TelemetrySchema {
                 "arduino.receiver_valid", "arduino.imu_valid", "arduino.failsafe",
                 "arduino.bias_stored", "arduino.reset_cause", "arduino.restored", "arduino.loop_us",
                 "arduino.late_us", "arduino.frame_errors", "arduino.flight_battery_v",
-                "arduino.flight_battery_low", "arduino.flight_battery_critical");
+                "arduino.flight_battery_a", "arduino.flight_battery_low",
+                "arduino.flight_battery_critical");
         put(READING_OF, "battery", "android.batteryLevel");
         put(UNITS, "deg", "orientation.roll", "orientation.pitch", "orientation.yaw",
                 "location.latitude", "location.longitude", "home.bearing", "home.latitude",
@@ -98,6 +99,7 @@ public final class TelemetrySchema {
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
         put(UNITS, "V", "arduino.flight_battery_v");
+        put(UNITS, "A", "arduino.flight_battery_a");
         put(UNITS, "%", "android.batteryLevel", "load.cpu", "load.ram");
         put(UNITS, "ms", "load.delay_ms", "system.period_ms", "system.clock_ms",
                 "age_ms.orientation", "age_ms.rx", "age_ms.servo", "age_ms.flight",
@@ -112,7 +114,7 @@ public final class TelemetrySchema {
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "location.accuracy", "location.pdop",
                 "navigation.target.altitude", "navigation.target.radius", "altitude",
-                "uplink.mb_in_an_hour", "black_box.megabytes");
+                "arduino.flight_battery_a", "uplink.mb_in_an_hour", "black_box.megabytes");
         put(DECIMALS, 6, "location.latitude", "location.longitude", "home.latitude",
                 "home.longitude", "navigation.latitude", "navigation.longitude",
                 "navigation.target.latitude", "navigation.target.longitude");
