@@ -71,6 +71,7 @@ TARGETS = {
     f"{LEG}, GPS frame": Target(1.5, 1.8),
     "height rms, GPS frame": Target(1.8, 2.8),
     "height rms with barometer, truth": Target(1.0, 2.5),
+    "height rms with sensors, truth": Target(1.0, 2.5),
     "wind error after two circles, m/s": Target(1.0, 1.0),
     "wind direction error after two circles, deg": Target(15.0, 15.0),
     "position error after 30 s without fixes": Target(30.0, 60.0, of_worst=True),
@@ -115,6 +116,7 @@ def plan() -> Iterable[tuple[Callable[[int, str, str], Figures], str, str]]:
             yield hold_with_barometer, controller, air
             yield hold_with_exact_gps, controller, air
             yield hold_with_receiver, controller, air
+            yield hold_with_sensors, controller, air
         yield come_home, controller, "against 7.7 m/s"
 
 
@@ -171,6 +173,11 @@ def height_errors(samples: list[Sample], wander: float) -> list[float]:
     return errors
 
 
+def airspeed_errors(samples: list[Sample]) -> list[float]:
+    """Return the errors of the estimated airspeed, m/s."""
+    return [each.state.airspeed_m_s - each.truth.airspeed_m_s for each in samples if each.state]
+
+
 def hold(seed: int, controller: str, air: str) -> Figures:
     """LOITER, a leg across the wind, 30 s without fixes, a stopped motor; no barometer."""
     events = (
@@ -194,6 +201,7 @@ def hold(seed: int, controller: str, air: str) -> Figures:
         f"{LEG}, truth": rms(line_errors(leg, 0.0)),
         "height rms, GPS frame": rms(height_errors(circling, 1.0)),
         "height rms, truth": rms(height_errors(circling, 0.0)),
+        "airspeed rms": rms(airspeed_errors(circling)),
         "LOITER 50 m, bank, standard deviation, deg": statistics.pstdev(
             each.truth.roll_deg for each in circling
         ),
@@ -265,6 +273,17 @@ def hold_with_receiver(seed: int, controller: str, air: str) -> Figures:
     flown = fly(replace(_circle_and_leg(seed, controller, air), gps=GpsPart()))
     figures = _radius_and_leg("u-blox 10 Hz, GPS frame", flown, 1.0)
     return figures | _radius_and_leg("u-blox 10 Hz, truth", flown)
+
+
+def hold_with_sensors(seed: int, controller: str, air: str) -> Figures:
+    """LOITER with barometer and pitot tube at the I2C bus (sensors cog), without the phone's."""
+    scenario = scenario_of(seed, controller, AIRS[air], CRUISE_S, mode_at(LOITER_S, "LOITER"))
+    scenario = replace(scenario, sensors=("bmp388", "ms4525do"))
+    circling = fly(scenario, _no_barometer).between(CIRCLING_S, CRUISE_S)
+    return {
+        "height rms with sensors, truth": rms(height_errors(circling, 0.0)),
+        "airspeed rms with sensors": rms(airspeed_errors(circling)),
+    }
 
 
 def _circle_and_leg(seed: int, controller: str, air: str) -> Scenario:
