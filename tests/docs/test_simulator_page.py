@@ -24,6 +24,7 @@ WORDS = {
     "receiver": "lost and back",
     "gps": "outage of the GPS",
     "gps_receiver": "no fix",
+    "i2c": "every transfer fails",
     "channel_lost": "one wire",
     "channel_back": "one wire",
     "reset": "reset by watchdog, power, button or brown-out",
