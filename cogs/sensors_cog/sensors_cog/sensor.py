@@ -28,8 +28,8 @@ class I2cSensor:
     """A chip at an I2C bus: set ``ADDRESS``, override ``begin`` and ``read``.
 
     ``begin`` identifies and sets up the chip, after each time that it was absent; raises
-    WrongChipError. ``read`` returns a Command with the measurement, or None if there is no new or
-    no valid one. Both may block for some milliseconds, and raise OSError as the bus does.
+    WrongChipError. ``read`` returns a Command with the measurement, or None without a new or a
+    valid one. Both may block for some milliseconds, and raise OSError as the bus does.
     """
 
     ADDRESS: ClassVar[int] = 0

@@ -12,7 +12,7 @@ from up.commands.command import BaseCommand
 ABSENT, WRONG_CHIP, WORKING = "absent", "wrong_chip", "working"
 RETRY_S = 1.0
 MAX_ERRORS = 3
-"""After so many errors of the bus in succession the chip is set up again: it may have been away."""
+"""Errors of the bus in succession after which the chip is set up again: it may have lost power."""
 
 
 class SensorSlot:

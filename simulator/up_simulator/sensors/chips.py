@@ -18,11 +18,11 @@ TEMPERATURE_C = 25.0
 
 def pressure_pa(altitude_m: float) -> float:
     """Return the pressure of the standard atmosphere (ISO 2533) below 11 km."""
-    return SEA_LEVEL_PA * (1.0 - 0.0065 * altitude_m / 288.15) ** 5.25588
+    return SEA_LEVEL_PA * math.pow(1.0 - 0.0065 * altitude_m / 288.15, 5.25588)
 
 
 def _ram_pa(state: FlightState) -> float:
-    density = SEA_LEVEL_KG_M3 * (1.0 - 0.0065 * state.altitude_m / 288.15) ** 4.25588
+    density = SEA_LEVEL_KG_M3 * math.pow(1.0 - 0.0065 * state.altitude_m / 288.15, 4.25588)
     return 0.5 * density * state.airspeed_m_s**2
 
 

@@ -43,7 +43,7 @@ def sentence(content):
     return f"${content}*{calc_checksum(content)}\r\n".encode()
 
 
-def nmea_epoch(time_s, *, quality=1, status="A", accuracy=True):
+def nmea_epoch(time_s, *, quality=1, status="A", mode="A", accuracy=True):
     """Return the sentences of one fix."""
     state = state_at(time_s)
     clock = 36_000.0 + time_s
@@ -51,7 +51,6 @@ def nmea_epoch(time_s, *, quality=1, status="A", accuracy=True):
     lat, lon = _degrees(state.latitude_deg, 2) + ",N", _degrees(state.longitude_deg, 3) + ",E"
     place = f"{lat},{lon}" if quality else ",,,"
     knots = state.speed_m_s * 3600 / 1852
-    mode = "A" if status == "A" else "N"
     said = [
         f"GNRMC,{at},{status},{place},{knots:.3f},{state.track_deg:.2f},241126,,,{mode}",
         f"GNGGA,{at},{place},{quality},11,0.8,{state.altitude_m:.1f},M,44.0,M,,",

@@ -1,7 +1,10 @@
 """Receivers as sources of the location: priorities, faults, ports."""
 
+from itertools import cycle
+
 import pytest
 from gps_cog.config import GPS
+from gps_cog.fix import GpsFix
 from gps_cog.modules.gps_provider import GpsProvider
 
 from tests.cogs.gps_cog.frames import RATE_HZ, nmea_epoch, state_at
@@ -124,21 +127,31 @@ def test_a_receiver_without_a_fix_gives_none(rig, tmp_path):
 @pytest.mark.parametrize(
     ("spoil", "counter"),
     [
-        (lambda data: data.replace(b",0.6,0.8,", b",60.,80.,"), "checksum"),
+        (lambda data: data.replace(b",N,", b",S,"), "checksum"),
+        (lambda data: data[::2], "noise"),
+        # The same characters: the checksum is right.
+        (lambda data: data.replace(b",0.6,0.8,", b",60.,80.,"), "inaccurate"),
+        (lambda data, at=cycle((2.0, 2.1)): nmea_epoch(next(at)) if data else b"", "past"),
+        (lambda data: data.replace(data[7:16], b"") if data else b"", "checksum"),
         (lambda data: b"", None),
     ],
 )
-def test_a_damaged_line_lets_the_phone_take_over(rig, tmp_path, spoil, counter):
+def test_a_receiver_that_cannot_be_used_lets_the_phone_take_over(rig, tmp_path, spoil, counter):
     flight = rig(NMEA)
     flight.aboard.append(Aboard(tmp_path / "nmea", nmea_at))
     flight.has_phone = True
     flight.advance(3.0)
     assert flight.source == "spare"
-    flight.aboard[0].send = lambda time_s: spoil(nmea_at(time_s).replace(b"1,11,", b"9,11,"))
-    flight.advance(3.0)
+    flight.aboard[0].send = lambda time_s: spoil(nmea_at(time_s))
+    flight.advance(4.0)
     assert flight.source == "android"
     if counter:
         assert flight.counters("spare")[counter] > 10
+
+
+def test_a_receiver_that_claims_the_point_zero_has_no_position():
+    assert GpsFix("3d", 1.0, 0.0, 0.0).command(0.1) is None
+    assert GpsFix("3d", 1.0, 0.0, 9.5).command(0.1).longitude_deg == 9.5
 
 
 def test_an_inaccurate_fix_is_dropped(rig, tmp_path):

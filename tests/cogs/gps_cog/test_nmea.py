@@ -43,6 +43,7 @@ def test_a_flight_is_one_fix_for_each_time_with_all_values():
         ({"quality": 4}, "rtk"),
         ({"quality": 0, "status": "V"}, None),
         ({"quality": 1, "status": "V"}, None),
+        ({"quality": 1, "mode": "E"}, None),
         ({"quality": 6}, None),
         ({"quality": 8}, None),
     ],

@@ -102,7 +102,7 @@ def test_a_stale_count_of_the_ms4525do_is_no_measurement():
     bus.update(flying())
     assert sensor.read(Aircraft()) is not None
     assert sensor.read(Aircraft()) is None
-    # By the transfer function of type A: half of the counts are no difference.
+    # By the transfer function of type A: half of the counts are 0 psi.
     bus.chips[0x28].registers[:2] = round(0.5 * 16383).to_bytes(2)
     assert sensor.read(Aircraft()).pressure_pa == pytest.approx(0.0, abs=1.0)
     bus.chips[0x28].registers[:2] = round(0.9 * 16383).to_bytes(2)
@@ -150,6 +150,7 @@ def test_a_compass_measures_the_heading_in_any_attitude(chip, roll, pitch, yaw):
 
 def test_a_compass_near_iron_gives_none_and_an_offset_is_taken_away():
     assert measured("qmc5883l", flying(), offset_z_ut=200.0) is None
+    assert measured("qmc5883l", flying(), offset_z_ut=43.0, offset_x_ut=12.0) is None
     sensor, bus = begun("qmc5883l", rotation_deg=90.0)
     # North along the y axis of a chip whose x axis points to the right: the nose points south.
     bus.chips[0x0D].put(0x00, [0, 0, 0x58, 0x02, 0, 0, 1])

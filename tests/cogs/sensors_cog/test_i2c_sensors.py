@@ -138,7 +138,7 @@ def test_the_bus_is_read_on_a_thread_and_closed_at_the_end(tmp_path):
     bench.module(I2cSensors).open_bus = lambda number: bus
     bench.start()
     try:
-        # The thread tells that the sensor works.
+        # The thread reports that the sensor works.
         bench.clock.take_call()
         assert bench.module(I2cSensors).telemetry_content["sensors"]["pitot"]["state"] == "working"
     finally:
