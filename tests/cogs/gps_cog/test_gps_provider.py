@@ -12,6 +12,7 @@ from tests.cogs.gps_cog.rig import Aboard, Rig
 from up.config import ConfigErrors
 from up_simulator.sensors.ubx_receiver import UbxReceiver
 
+TWO_TIMES = cycle((2.0, 2.1))
 UBX = "  gps: {{source: ubx, port: {0}/ubx, rate_hz: 10}}\n"
 NMEA = "  spare: {{source: nmea, port: {0}/nmea, priority: 10}}\n"
 
@@ -131,7 +132,7 @@ def test_a_receiver_without_a_fix_gives_none(rig, tmp_path):
         (lambda data: data[::2], "noise"),
         # The same characters: the checksum is right.
         (lambda data: data.replace(b",0.6,0.8,", b",60.,80.,"), "inaccurate"),
-        (lambda data, at=cycle((2.0, 2.1)): nmea_epoch(next(at)) if data else b"", "past"),
+        (lambda data: nmea_epoch(next(TWO_TIMES)) if data else b"", "past"),
         (lambda data: data.replace(data[7:16], b"") if data else b"", "checksum"),
         (lambda data: b"", None),
     ],
