@@ -9,8 +9,8 @@ from typing import Any
 from sensors_cog.sensor import Aircraft, I2cSensor, WrongChipError
 from up.commands.command import BaseCommand
 
-ABSENT, WRONG_CHIP, WORKING = "absent", "wrong_chip", "working"
-RETRY_S = 1.0
+ABSENT, WRONG_CHIP, FAILED, WORKING = "absent", "wrong_chip", "failed", "working"
+RETRY_S, RETRY_FAILED_S = 1.0, 30.0
 MAX_ERRORS = 3
 """Errors of the bus in succession after which the chip is set up again: it may have lost power."""
 
@@ -45,6 +45,10 @@ class SensorSlot:
             self._errors += 1
             if self.state != WORKING or self._errors >= MAX_ERRORS:
                 self._lost(ABSENT, error.strerror or str(error), now_s)
+        except Exception as error:  # noqa: BLE001 - a user's sensor must not stop the others
+            self.counters["faults"] += 1
+            self._lost(FAILED, f"{type(error).__name__}: {error}", now_s)
+            self.due_s = now_s + RETRY_FAILED_S
         return None
 
     def _measure(self, now_s: float, aircraft: Aircraft) -> BaseCommand | None:

@@ -109,6 +109,21 @@ def test_another_chip_is_named_and_tried_again(tmp_path):
     assert rig.states == {"top": "working"}
 
 
+def test_a_sensor_that_raises_does_not_keep_the_others_from_working(tmp_path, monkeypatch):
+    rig = Rig(tmp_path, TWO, x77=Bmp388(), x76=Bmp280())
+    rig.advance(2)
+    rig.heard.clear()
+
+    def fail(sensor, aircraft):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr("sensors_cog.chips.barometers.Bmp388.read", fail)
+    rig.advance(2)
+    assert rig.states == {"top": "failed", "spare": "working"}
+    assert len([link for link, _ in rig.heard if link == "spare"]) > 15
+    assert rig.telemetry["counters"]["sensor_top"]["faults"] == 1
+
+
 def test_a_missing_bus_is_tried_again(tmp_path):
     rig = Rig(tmp_path, TWO, x77=Bmp388())
 
