@@ -10,9 +10,9 @@ from typing import Any
 
 from up.commands.telemetry_schema import SILENT_S
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import Frame, frames
-from up_ground.sanitize_text import sanitize_text
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import INFO, LinkSnapshot, Report
