@@ -7,15 +7,21 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from up.commands.command import InvalidCommandError
+from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.mission.reliable_requests import Reply
 from up.system.clock import Clock, Timer, cancel
 from up_mavlink.aircraft import Aircraft
-from up_mavlink.parameters import REAL32, ParameterRefusedError
+from up_mavlink.parameters import (
+    DOES_NOT_EXIST,
+    NOT_PERMITTED,
+    OUT_OF_RANGE,
+    REAL32,
+    ParameterRefusedError,
+)
 from up_mavlink.status_texts import REFUSED
 
 LIST_S = 0.005
 """Between two values of a list: a slow radio must not get them all together."""
-DOES_NOT_EXIST = 1
 NO_INDEX = -1
 MAX_WAITING = 50
 
@@ -111,15 +117,14 @@ class ParameterProtocol:
         message = self._sets.popleft()
         name, parameters = _name_of(message), self._aircraft.parameters
 
-        def on_reply(reply: Reply) -> None:
+        def on_reply(reply: Reply, error: int = NOT_PERMITTED) -> None:
             if reply.code:
                 self._say(REFUSED, f"{name}: {reply.reason}")
-            elif command is not None and "pids" in command.data:
-                parameters.on_gains(command.data["pids"])
+                self._refuse(message, name, error)
+            elif isinstance(command, PIDTuningsCommand):
+                parameters.on_gains(command.pids or {})
             if name in self._values():
                 self._send_value(name, None if reply.code else message.param_value)
-            else:
-                self._refuse(message, name, DOES_NOT_EXIST)
             self._set_next()
 
         command = None
@@ -127,7 +132,7 @@ class ParameterProtocol:
             value, frame = message.param_value, self._aircraft.frame
             command = parameters.set(name, value, message.param_type, frame)
         except (ParameterRefusedError, InvalidCommandError) as error:
-            on_reply(Reply("invalid", str(error)))
+            on_reply(Reply("invalid", str(error)), getattr(error, "code", OUT_OF_RANGE))
             return
         self._aircraft.ask([] if command is None else [command], on_reply)
 

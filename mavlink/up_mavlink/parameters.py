@@ -31,8 +31,16 @@ _READ_ONLY = {
 }
 
 
+DOES_NOT_EXIST, OUT_OF_RANGE, NOT_PERMITTED, READ_ONLY = 1, 2, 3, 5
+"""Codes of PARAM_ERROR."""
+
+
 class ParameterRefusedError(Exception):
-    """A value that is not set; the text is the reason."""
+    """A value that is not set; the text is the reason, ``code`` that of PARAM_ERROR."""
+
+    def __init__(self, reason: str, code: int) -> None:
+        super().__init__(reason)
+        self.code = code
 
 
 class Parameters:
@@ -75,17 +83,18 @@ class Parameters:
         """
         present = self.values(frame).get(name)
         if present is None:
-            raise ParameterRefusedError(f"there is no parameter {name}")
+            raise ParameterRefusedError(f"there is no parameter {name}", DOES_NOT_EXIST)
         if type_ != REAL32:
-            raise ParameterRefusedError(f"{name} is of the type REAL32, not {type_}")
+            text = f"{name} is of the type REAL32, not {type_}"
+            raise ParameterRefusedError(text, OUT_OF_RANGE)
         if not math.isfinite(value):
-            raise ParameterRefusedError(f"{name} must be a finite number")
+            raise ParameterRefusedError(f"{name} must be a finite number", OUT_OF_RANGE)
         if single(value) == single(present):
             return None
         if name == PERIOD:
             return TelemetryFrequencyCommand.from_data({"frequency": value})
         if name not in _GAINS:
-            raise ParameterRefusedError(f"{name} can only be read")
+            raise ParameterRefusedError(f"{name} can only be read", READ_ONLY)
         loop, axis, term = _GAINS[name]
         pids = {
             key: {each: dict(gains) for each, gains in axes.items()}
