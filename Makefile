@@ -8,7 +8,7 @@ PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground flightl
 COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=
-MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
+MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . mavlink $(COGS)))
 SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml \
 	$(wildcard $(addsuffix /*/registered_modules.yml,$(COGS)))
 TEST ?=
