@@ -76,6 +76,8 @@ class MissionProtocol:
         if handler is None:
             return False
         client = (message.get_srcSystem(), message.get_srcComponent())
+        if self._upload is None:
+            cancel(self._timer)
         handler(message, client)
         return True
 
@@ -159,6 +161,9 @@ class MissionProtocol:
             self._upload = None
             self._finished = (upload.count - 1, upload.type, result)
             self._ack(upload.client, result, upload.type)
+            # MAVSDK waits for it without asking again.
+            arguments = (upload.client, result, upload.type)
+            self._timer = self._clock.callLater(REQUEST_S, self._ack, *arguments)
 
     def _ack(self, client: tuple[int, int], result: int, type_: int) -> None:
         self._send(self._m.MAVLink_mission_ack_message(*client, result, type_))

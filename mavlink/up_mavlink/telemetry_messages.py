@@ -47,13 +47,13 @@ def _sys_status(m: Any, frame: Frame) -> Any:
     }
     for bits, is_valid in checks.items():
         health |= bits if is_valid else 0
+    # Without a fence none is breached.
+    if (frame.number("fence", "margin") or 0.0) >= 0.0:
+        health |= FENCE
     optional = {
         GPS: (frame.number("age_ms", "location"), frame.position is not None),
         PRESSURE: (frame.number("altitude"), True),
-        FENCE: (
-            frame.number("fence", "count") or None,
-            (frame.number("fence", "margin") or 0) >= 0,
-        ),
+        FENCE: (frame.number("fence", "count") or None, False),
         BATTERY: (_voltage_v(frame), frame.flag("arduino", "flight_battery_low") is not True),
     }
     for bits, (value, is_valid) in optional.items():

@@ -133,4 +133,4 @@ class MAVLink(BaseStartedModule):
         port.endpoint = endpoint = Endpoint(self.context.reactor, settings, port)
         endpoint.start()
         self._endpoints.append((endpoint, config.granted))
-        self.up.advertise_port(f"mavlink {config.url.partition(':')[0]}", endpoint.number)
+        self.up.advertise_port(f"mavlink {number}", endpoint.number)
