@@ -96,6 +96,9 @@ setup(
             "ruff>=0.6",
             "mypy>=1.11",
             "import-linter>=2.0",
+            # Peers of MAVLink; tools/install adds MAVProxy without its graphics.
+            "mavsdk>=4.1; platform_machine == 'x86_64'",
+            "defusedxml>=0.7",
             "types-PyYAML",
             "types-psutil",
             "types-pyserial",

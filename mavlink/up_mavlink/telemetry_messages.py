@@ -176,10 +176,6 @@ def _autopilot_version(m: Any, frame: Frame) -> Any:
     )
 
 
-def _protocol_version(m: Any, frame: Frame) -> Any:
-    return m.MAVLink_protocol_version_message(200, 100, 200, [0] * 8, [0] * 8)
-
-
 def mission_state(frame: Frame) -> int:
     """Return the state for MISSION_CURRENT."""
     if not frame.number("mission", "count"):
@@ -206,7 +202,6 @@ BUILDERS: dict[str, tuple[Build, float | None]] = {
     "SYSTEM_TIME": (_system_time, 1.0),
     "GPS_GLOBAL_ORIGIN": (_gps_global_origin, None),
     "AUTOPILOT_VERSION": (_autopilot_version, None),
-    "PROTOCOL_VERSION": (_protocol_version, None),
 }
 """Each message with its interval in seconds until a ground sets another; None: on request."""
 

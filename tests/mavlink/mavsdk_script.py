@@ -131,12 +131,18 @@ def main(url):
     until("is returning", lambda: mode() == "RETURN_TO_LAUNCH")
     step("clear", mission.clear_mission)
 
+    # The switch leaves AUTO.
+    ask_pilot("stick")
+    until("by sticks", lambda: mode() not in ("HOLD", "RETURN_TO_LAUNCH"))
+    step("not at AUTO", action.hold)
+    ask_pilot("auto")
     ask_pilot("low")
     until("disarm", lambda: _is_done(action.disarm))
     until("is disarmed", lambda: not telemetry.armed())
     ask_pilot("high")
     until("is not armable", lambda: not telemetry.health().is_armable)
     step("arm refused", action.arm)
+    step("forced arm", action.arm_force)
     ask_pilot("low")
     until("is armable", lambda: telemetry.health().is_armable)
     step("arm", action.arm)

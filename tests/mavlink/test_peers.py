@@ -17,6 +17,12 @@ from tests.support.waiting import until
 
 HERE = Path(__file__).parent
 LIMIT_S = 120.0
+PILOT = {
+    "low": {"throttle": 1000},
+    "high": {"throttle": 1600},
+    "stick": {"aux1": 1500},
+    "auto": {"aux1": 2000},
+}
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +93,7 @@ def run_mavsdk(flying, port):
                 step, outcome = json.loads(line).values()
                 told[step] = outcome
                 if step == "pilot":
-                    flying.pilot.move(throttle={"low": 1000, "high": 1600}[outcome])
+                    flying.pilot.move(**PILOT[outcome])
                     script.stdin.write("\n")
                     script.stdin.flush()
         errors = script.stderr.read()
@@ -119,7 +125,8 @@ def test_a_mavsdk_program_uses_all_of_the_aircraft_over_a_bad_link(flying):
         "read only": "READ_ONLY", "out of range": "VALUE_OUT_OF_RANGE", "download": "done",
         "speeds": [12.0] * 3,
         "total": 20, "fence back": "done", "borders": [4, 50.0], "too far": "COMMAND_DENIED",
-        "pilot": "low", "arm refused": "COMMAND_DENIED",
+        "pilot": "low", "arm refused": "COMMAND_DENIED", "forced arm": "COMMAND_DENIED",
+        "not at AUTO": "COMMAND_DENIED", "by sticks": True,
     }  # fmt: skip
     assert path.lost > 5
     assert times_ms["connect ms"] < 5000
