@@ -132,7 +132,7 @@ class MAVRig(NavigationRig):
         self.setpoint()
         self.telemetry()
 
-    def settle(self, turns=4):
+    def settle(self, turns=12):
         for _ in range(turns):
             self.clock.advance(0.0)
             self.plans._disk.wait()

@@ -91,6 +91,7 @@ def gains_in_flight(folder):
     client = rig.client()
     client.send("param_request_list", 1, 1)
     rig.fly()
+    assert client.of("PARAM_VALUE")
     client.send("param_set", 1, 1, b"RATE_RLL_P", 2.5, 9)
     return rig.tuner.gains["ratePIDs"]["ailerons"]["p"] == 2.5
 
