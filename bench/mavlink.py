@@ -36,7 +36,7 @@ FRAME = {
 
 
 class _Port:
-    """Carries out every Command at once."""
+    """Carries out every Command immediately."""
 
     problem = ""
     endpoint: Any = None

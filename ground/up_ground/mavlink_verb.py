@@ -18,13 +18,12 @@ from up_mavlink.personas import ARDUPILOT, BY_NAME, PERSONAS
 DEFAULT_URL = "udpout:127.0.0.1:14550"
 _EPILOG = """\
 URL is where ground stations that speak MAVLink connect:
-  udpout:127.0.0.1:14550   QGroundControl on this computer, by itself (default)
+  udpout:127.0.0.1:14550   QGroundControl on this computer (default)
   udpin:127.0.0.1:14551    waits for MAVProxy, MAVSDK or QGroundControl
   tcpin:127.0.0.1:5760     the same by TCP
 
-The bridge has control of the aircraft only while heartbeats of a MAVLink ground
-station arrive, and nobody else has it; the role is that of this ground's link
-or key. On an address other than loopback it needs --signing-key or
+The bridge requests control while heartbeats of a MAVLink ground station arrive
+and control is free; the role is that of this ground's link or key. On an address other than loopback it needs --signing-key or
 --watch-only.
 """
 

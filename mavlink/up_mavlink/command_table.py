@@ -1,4 +1,4 @@
-"""MAVLink's commands as Commands of Up. What is not listed here is answered with UNSUPPORTED."""
+"""MAVLink's commands as Commands of Up; all others are answered with UNSUPPORTED."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from up_mavlink.plan_rows import TYPES, Rows, read_rows
 from up_mavlink.status_texts import REFUSED, SEVERITIES
 
 REQUEST_S, MAX_REQUESTS = 0.25, 40
-"""A row that does not come is requested again after this time; so often, then the upload ends."""
+"""A missing row is requested again after this time; the upload ends after this many requests."""
 OK, ERROR, BAD_FRAME, NOT_SUPPORTED, NO_SPACE, INVALID = range(6)
 INVALID_SEQUENCE, CANCELLED = 13, 15
 MAX_ROWS = 2 * max(MAX_ITEMS.values())
@@ -211,7 +211,7 @@ class MissionProtocol:
         if self._upload is not None and message.type == CANCELLED:
             self.stop()
 
-    # What is in use.
+    # The plans in use.
 
     def _on_mission_clear_all(self, message: Any, client: tuple[int, int]) -> None:
         type_ = message.mission_type

@@ -83,7 +83,7 @@ class Parameters:
         """
         present = self.values(frame).get(name)
         if present is None:
-            raise ParameterRefusedError(f"there is no parameter {name}", DOES_NOT_EXIST)
+            raise ParameterRefusedError(f"unknown parameter {name}", DOES_NOT_EXIST)
         if type_ != REAL32:
             text = f"{name} is of the type REAL32, not {type_}"
             raise ParameterRefusedError(text, OUT_OF_RANGE)

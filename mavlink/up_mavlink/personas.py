@@ -11,7 +11,7 @@ _PLANE = {
     "ACRO": 0, "CIRCLE": 1, "RATE": 4, "FBW": 5, "CRUISE": 7, "MISSION": 10, "RETURN": 11,
     "LOITER": 12, "TAKEOFF": 13, "GUIDED": 15, UNKNOWN_MODE: 16, "GLIDE": 24, "LAND": 26,
 }  # fmt: skip
-"""ArduPlane's numbers. Ours that ArduPlane does not have are shown as the nearest of its own."""
+"""ArduPlane's numbers. A mode that ArduPlane lacks is shown as its nearest one."""
 
 
 def _px4(main: int, sub: int = 0) -> int:

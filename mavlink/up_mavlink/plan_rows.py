@@ -1,4 +1,4 @@
-"""Plans as the rows of MAVLink's mission protocol: what was uploaded stays as it was sent."""
+"""Plans as the rows of MAVLink's mission protocol; uploaded rows are kept unchanged."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ SILENT_S = 3.0
 """Without telemetry for this long the aircraft sends no heartbeat."""
 MESSAGES_HZ, MESSAGES_BURST = 200.0, 400.0
 REPEAT_S = 1.0
-"""A refusal is told once in this time."""
+"""A refusal is reported once in this time."""
 GET_INTERVAL, SET_INTERVAL, REQUEST_MESSAGE = 510, 511, 512
 PREARM_CHECKS, GET_HOME, CAPABILITIES = 401, 410, 520
 _FTP_NAK, _FTP_OPEN, _FTP_NOT_FOUND, _FTP_UNKNOWN = 129, 4, 10, 7
@@ -141,7 +141,7 @@ class Session:
     # Out.
 
     def on_frame(self) -> None:
-        """Send what is due of the newest frame, with events and the progress of the mission."""
+        """Send the due messages of the newest frame, events, and the progress of the mission."""
         frame, now_s = self._aircraft.frame, self._clock.seconds()
         self.on_moment()
         for name in self._streams.due(now_s):
@@ -177,7 +177,7 @@ class Session:
         self._send_packet(self._codec.pack(message))
 
     def _send_telemetry(self, name: str) -> bool:
-        """Send a message by its name; False: there is no such message, or nothing to tell."""
+        """Send a message by its name; False: unknown, or without content."""
         if name == "HEARTBEAT":
             message = heartbeat(self._m, self._aircraft.frame, self._aircraft.persona)
         elif name == MISSION_CURRENT:
@@ -348,7 +348,7 @@ class Session:
             self._send(reply)
 
     def _on_file_transfer_protocol(self, message: Any) -> None:
-        """Refuse: there are no files, so the client asks for parameters by their own messages."""
+        """Refuse: the client then requests parameters by their messages."""
         request = bytes(message.payload)
         number, session, opcode = int.from_bytes(request[:2], "little"), request[2], request[3]
         error = _FTP_NOT_FOUND if opcode == _FTP_OPEN else _FTP_UNKNOWN

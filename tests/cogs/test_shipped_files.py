@@ -8,6 +8,7 @@ import pytest
 from android_cog.config import ANDROID
 from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
+from mavlink_cog.config import MAVLINK
 from mission_control_cog.config import MISSION_CONTROL
 from serial_cog.config import ARDUINO
 
@@ -20,7 +21,7 @@ from up.flight_controller.profile_wire import AIRFRAME
 ROOT = Path(__file__).parents[2]
 
 
-FILES = [ANDROID, ARDUINO, BLACK_BOX, DISCOVERY, MISSION_CONTROL, PIDS, AIRFRAME]
+FILES = [ANDROID, ARDUINO, BLACK_BOX, DISCOVERY, MAVLINK, MISSION_CONTROL, PIDS, AIRFRAME]
 COGS = sorted(path.name for path in (ROOT / "cogs").glob("*_cog"))
 
 

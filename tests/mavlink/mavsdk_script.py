@@ -1,7 +1,7 @@
 """What a MAVSDK program does, on one aircraft: each outcome is a line of JSON.
 
 ``mavsdk_script.py URL DESCRIPTOR``: they go to the descriptor, as the library logs on stdout and
-stderr. The pilot moves the throttle where a line says so.
+stderr. The pilot moves the sticks at each step ``pilot``.
 """
 
 import json

@@ -170,7 +170,7 @@ def test_an_attack_succeeds_only_without_its_rule(attack, rule, tmp_path, monkey
     try:
         succeeded = attack(tmp_path / "removed")
     except AssertionError:
-        # The answer is no refusal either.
+        # The answer is not a refusal.
         succeeded = True
     assert succeeded
 

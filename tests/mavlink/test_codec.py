@@ -1,4 +1,4 @@
-"""Packets: golden bytes, and input that nobody sends on purpose."""
+"""Packets: golden bytes, and noise."""
 
 import struct
 from collections import Counter
