@@ -23,8 +23,8 @@ URL is where ground stations that speak MAVLink connect:
   tcpin:127.0.0.1:5760     the same by TCP
 
 The bridge requests control while heartbeats of a MAVLink ground station arrive
-and control is free; the role is that of this ground's link or key. On an address other than loopback it needs --signing-key or
---watch-only.
+and control is free; the role is that of this ground's link or key. On an
+address other than loopback it needs --signing-key or --watch-only.
 """
 
 

@@ -115,7 +115,10 @@ def target_of(request: Request) -> NavigationTargetCommand:
 
 def _arm(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
     # Parameter 2 would force it: the aircraft's checks cannot be skipped.
-    return [ArmCommand() if request.number(1) == 1 else DisarmCommand()]
+    wanted = request.params[0]
+    if wanted not in (0.0, 1.0):
+        raise CommandNotTranslatedError(DENIED, "parameter 1 must be 1 (arm) or 0 (disarm)")
+    return [ArmCommand() if wanted else DisarmCommand()]
 
 
 def mode_commands(number: int, persona: Persona, frame: Frame) -> list[BaseCommand]:

@@ -131,6 +131,8 @@ def main(url):
     until("is returning", lambda: mode() == "RETURN_TO_LAUNCH")
     step("clear", mission.clear_mission)
 
+    # A forced disarming.
+    step("kill", action.kill)
     # The switch leaves AUTO.
     ask_pilot("stick")
     until("by sticks", lambda: mode() not in ("HOLD", "RETURN_TO_LAUNCH"))
@@ -142,7 +144,6 @@ def main(url):
     ask_pilot("high")
     until("is not armable", lambda: not telemetry.health().is_armable)
     step("arm refused", action.arm)
-    step("forced arm", action.arm_force)
     ask_pilot("low")
     until("is armable", lambda: telemetry.health().is_armable)
     step("arm", action.arm)

@@ -102,6 +102,8 @@ def test_a_command_that_is_repeated_while_it_is_carried_out_is_carried_out_once(
     [
         (176, (1, 2), DENIED),
         (300, (), DENIED),
+        (400, (0.5,), DENIED),
+        (400, (NAN,), DENIED),
         (246, (1,), UNSUPPORTED),
         (511, (9999, 1e5), UNSUPPORTED),
         (512, (435,), UNSUPPORTED),
