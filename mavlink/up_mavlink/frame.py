@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -22,7 +23,7 @@ class Frame:
     def number(self, *path: str) -> float | None:
         found = value_at(self.content, path)
         is_number = isinstance(found, int | float) and not isinstance(found, bool)
-        return float(found) if is_number else None
+        return float(found) if is_number and math.isfinite(found) else None
 
     def flag(self, *path: str) -> bool | None:
         found = value_at(self.content, path)
@@ -36,6 +37,11 @@ class Frame:
         """Return a list of texts; None: unknown."""
         found = value_at(self.content, path)
         return [str(each) for each in found] if isinstance(found, list | tuple) else None
+
+    def is_null(self, *path: str) -> bool:
+        """Return whether the aircraft reports null."""
+        above = value_at(self.content, path[:-1])
+        return isinstance(above, Mapping) and above.get(path[-1], "") is None
 
     @property
     def mode(self) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import Any
 
+from up.commands.event_rules import report_of, state_of
 from up.commands.schema_rows import Rule
-from up.commands.telemetry_schema import MODE_REASONS, RULES
+from up.commands.telemetry_schema import RULES
 from up.sanitize_text import sanitize_text
 from up_mavlink.frame import Frame
 
@@ -16,7 +16,6 @@ REFUSED = 4
 PART_BYTES, MAX_PARTS = 50, 4
 PAUSE_S = 3.0
 """A field that changes again sooner is reported with its newest value, after this time."""
-_VALUE = re.compile(r"\{([^}]+)\}")
 
 
 class StatusTexts:
@@ -32,56 +31,16 @@ class StatusTexts:
             if not rule.event:
                 continue
             before = self._states.get(rule)
-            state = _state(rule, frame, before)
+            state = state_of(rule, frame, before)
             if state is None or state == before:
                 continue
             if now_s - self._reported_s.get(rule, -PAUSE_S) < PAUSE_S:
                 continue
             self._states[rule] = state
-            text = _text(rule, frame, before, state)
-            if text:
+            report = report_of(rule, before, state, frame)
+            if report is not None:
                 self._reported_s[rule] = now_s
-                yield SEVERITIES[rule.level] if state else SEVERITIES["info"], text
-
-
-def _state(rule: Rule, frame: Frame, before: Any) -> Any:
-    path = rule.path.split(".")
-    if rule.type == "text":
-        return frame.text(*path) or ("" if rule.end else None)
-    if rule.type == "texts":
-        texts = frame.texts(*path)
-        return None if texts is None else tuple(sorted(texts))
-    value = frame.flag(*path) if rule.type == "flag" else frame.number(*path)
-    holds = rule.holds(value, before is True)
-    if holds and rule.awaits and before is None:
-        ages = (frame.number("age_ms", reading) for reading in rule.awaits)
-        return None if all(each is None for each in ages) else holds
-    return holds
-
-
-def _text(rule: Rule, frame: Frame, before: Any, now: Any) -> str:
-    if not now and rule.end:
-        return rule.end if before else ""
-    if rule.type in ("flag", "number"):
-        return _filled(rule.text, frame) if now else ""
-    if before is None and rule.type == "text" and not rule.first:
-        return ""
-    shown = "; ".join(now) if rule.type == "texts" else MODE_REASONS.get(now, now)
-    return _filled(rule.text, frame, value=shown, before=before) if now or before else ""
-
-
-def _filled(text: str, frame: Frame, **known: object) -> str:
-    def value(found: re.Match[str]) -> str:
-        if found[1] in known:
-            return str(known[found[1]])
-        for path in (name.split(".") for name in found[1].split(" or ")):
-            number = frame.number(*path)
-            shown = frame.text(*path) if number is None else f"{number:.0f}"
-            if shown is not None:
-                return shown
-        return "--"
-
-    return _VALUE.sub(value, text)
+                yield SEVERITIES[report.level], report.text
 
 
 def messages_of(m: Any, severity: int, text: str, number: int) -> list[Any]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from up.commands.command import BaseCommand
+from up.commands.event_rules import Report
 from up.commands.mission_commands import (
     FENCE,
     MISSION,
@@ -27,7 +28,6 @@ from up_ground.web.answers import Answer, outcome_event
 from up_ground.web.client_session import ClientSession
 from up_ground.web.command_gate import CommandGate
 from up_ground.web.control import Control
-from up_ground.web.event_rules import Report
 from up_ground.web.messages import MAX_PLAN_BYTES, PageFault, Reader
 
 LISTED = 100
