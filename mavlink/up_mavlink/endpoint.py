@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from twisted.internet.interfaces import IPushProducer
@@ -91,7 +92,8 @@ class Endpoint:
         if address.kind == SERIAL:
             self._start_serial(address)
         elif address.kind == TCP_SERVER:
-            factory = _Factory(self)
+            factory: Any = Factory.forProtocol(partial(_Connection, self))
+            factory.noisy = False
             self._transport = self._reactor.listenTCP(address.port, factory, interface=address.host)
             self.number = self._transport.getHost().port
         else:
@@ -240,13 +242,3 @@ class _Connection(Protocol):
         else:
             transport: Any = self.transport
             transport.write(packet)
-
-
-class _Factory(Factory):
-    noisy = False
-
-    def __init__(self, endpoint: Endpoint) -> None:
-        self._endpoint = endpoint
-
-    def buildProtocol(self, addr: Any) -> Protocol:  # noqa: N802 - Twisted's name
-        return _Connection(self._endpoint)

@@ -99,10 +99,13 @@ def main(url):
     step("upload", mission.upload_mission, MissionPlan(items))
     back = step("download", mission.download_mission).mission_items
 
-    def place(each):
-        return round(each.latitude_deg, 6), round(each.longitude_deg, 6), each.relative_altitude_m
+    def is_equal(one, other):
+        north, east = one.latitude_deg - other.latitude_deg, one.longitude_deg - other.longitude_deg
+        height = one.relative_altitude_m - other.relative_altitude_m
+        return max(map(abs, (north, east, height))) < 1e-6
 
-    tell("equal", list(map(place, back)) == list(map(place, items)))
+    is_whole = len(back) == len(items)
+    tell("equal", is_whole and all(map(is_equal, back, items)))
     tell("speeds", [each.speed_m_s for each in back[:3]])
     step("start", mission.start_mission)
     until("is in mission", lambda: mode() == "MISSION")
