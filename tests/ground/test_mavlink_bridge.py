@@ -4,11 +4,20 @@ import contextlib
 
 import pytest
 from pymavlink import mavutil
+from twisted.internet.task import Clock
 
 from tests.ground import aircraft
 from tests.ground.aircraft import Aircraft, Ground, codes, ground
 from tests.proxy.program import Client
 from tests.support.waiting import until
+from up.protocols.general_message import GeneralMessage
+from up_ground.link_status import LinkState
+from up_ground.mavlink_bridge import MAVLinkBridge
+from up_ground.settings import Settings
+from up_ground.token_store import TokenStore
+from up_mavlink.address import read_address
+from up_mavlink.endpoint import Settings as EndpointSettings
+from up_mavlink.personas import BY_NAME
 
 ARM = 400
 ACCEPTED, DENIED = 0, 2
@@ -82,6 +91,21 @@ def test_a_bridge_that_watches_commands_nothing(proxy, tmp_path):
     with bridged(proxy, tmp_path, "--watch-only") as (flying, station):
         assert station.command(ARM, 1) == DENIED
         assert flying.received == []
+
+
+@pytest.mark.parametrize("is_watching", [False, True])
+def test_a_direct_link_has_no_lease_and_still_only_watches(is_watching, tmp_path):
+    settings = Settings(direct=True)
+    served = EndpointSettings(read_address("udpin:127.0.0.1:0"), BY_NAME["ardupilot"])
+    tokens = TokenStore(tmp_path, settings)
+    reactor = Clock()
+    bridge = MAVLinkBridge(reactor, settings, tokens, served, is_watching=is_watching)
+    bridge.link.status.state = LinkState.OPEN
+    assert bridge.problem
+    bridge.telemetry.update(GeneralMessage("up.telemetry.update", {}, None, 1), 0.0)
+    assert bool(bridge.problem) is is_watching
+    reactor.advance(2.0)
+    assert bridge.problem
 
 
 @pytest.mark.parametrize(

@@ -97,6 +97,14 @@ def test_noise_is_dropped_and_what_is_kept_is_bounded(chunks):
     assert any(parser.parse(packet) for _ in range(20))
 
 
+def test_a_stream_that_never_pauses_needs_no_more_memory():
+    parser, packet = codec(), codec().pack(m.MAVLink_ping_message(1, 2, 3, 4))
+    parser.parse(packet[:5])
+    for _ in range(100):
+        assert len(parser.parse(packet[5:] + packet[:5])) == 1
+        assert len(parser._mav.buf) == 5
+
+
 @settings(max_examples=100, deadline=None)
 @given(st.integers(0, 60), st.integers(1, 255))
 def test_a_changed_byte_of_a_signed_packet_is_refused(place, change):
