@@ -26,6 +26,8 @@ INVALID_SEQUENCE, CANCELLED = 13, 15
 MAX_ROWS = 2 * max(MAX_ITEMS.values())
 ALL_TYPES, RALLY = 255, 2
 GUIDED_TARGET = 2
+MAX_DEGREES = 214.0
+"""Of a coordinate on the wire, in 1e-7 degrees."""
 _RESULTS = {
     "command_unknown": NOT_SUPPORTED,
     "command_unsupported": NOT_SUPPORTED,
@@ -253,7 +255,11 @@ def _row_of(message: Any) -> FileItem:
         value if math.isfinite(value := getattr(message, f"param{n}")) else None
         for n in range(1, 5)
     ]
-    latitude, longitude = position_of(message)
+    # Rows without a position may have anything there, which has to be sent back.
+    latitude, longitude = (
+        each if math.isfinite(each) and abs(each) < MAX_DEGREES else 0.0
+        for each in position_of(message)
+    )
     altitude = message.z if math.isfinite(message.z) else None
     frame, number = message.frame, message.seq
     return FileItem(

@@ -100,6 +100,8 @@ class ParameterProtocol:
     def _send_value(self, name: str, new: float | None = None) -> None:
         """Send a parameter; ``new`` was just set, and telemetry may not have it yet."""
         values = self._values()
+        if name not in values:
+            return
         value, place = values[name] if new is None else new, list(values).index(name)
         self._send(
             self._m.MAVLink_param_value_message(name.encode(), value, REAL32, len(values), place)

@@ -39,6 +39,7 @@ from up_mavlink.streams import MISSION_CURRENT, Streams
 from up_mavlink.telemetry_messages import (
     BUILDERS,
     COMPLETE,
+    MISSION_ACTIVE,
     heartbeat,
     mission_state,
 )
@@ -98,7 +99,7 @@ class Session:
         self._said: tuple[str, float] = ("", 0.0)
         self._acknowledged: _Acknowledgement | None = None
         self._heartbeat_s = float("-inf")
-        self._reached = -1
+        self._current = -1
         self._missions = MissionProtocol(m, clock, aircraft, self._send, self.say, self._on_target)
         self._parameters = ParameterProtocol(m, clock, aircraft, self._send, self.say)
 
@@ -208,13 +209,14 @@ class Session:
         return item if self._aircraft.persona.has_home_item else max(0, item - 1)
 
     def _send_reached(self) -> None:
+        """Report the row before, when the next one becomes current in MISSION, or at the end."""
         frame, now = self._aircraft.frame, self._sequence()
-        if mission_state(frame) == COMPLETE:
+        state = mission_state(frame)
+        if state == COMPLETE:
             now += 1
-        if frame.flag("in_flight") and self._reached >= 0 and now > self._reached:
-            for number in range(self._reached, now):
-                self._send(self._m.MAVLink_mission_item_reached_message(number))
-        self._reached = now
+        if state in (MISSION_ACTIVE, COMPLETE) and now > self._current >= 0:
+            self._send(self._m.MAVLink_mission_item_reached_message(self._current))
+        self._current = now
 
     # In.
 

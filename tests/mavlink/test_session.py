@@ -4,13 +4,57 @@ import math
 from random import Random
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
-from tests.mavlink.rig import MAVRig
+from tests.mavlink.rig import MAVRig, m
 from tests.raspilot.mission.plans_rig import placed
 from up.commands.roles import Role
 
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED, FAILED, IN_PROGRESS = range(6)
 NAN = math.nan
+
+
+_NUMBERS = {"float": st.floats(width=32), "double": st.floats()}
+
+
+def _field(kind, length):
+    if kind == "char":
+        return st.binary(min_size=length, max_size=length)
+    bits, is_signed = int("".join(filter(str.isdigit, kind)) or 0), not kind.startswith("u")
+    some = st.integers(0, 2 ** (bits - is_signed) - 1) | st.integers(0, 5) if bits else None
+    some = some if bits else _NUMBERS[kind]
+    return st.lists(some, min_size=length, max_size=length) if length else some
+
+
+def _messages(name):
+    cls = getattr(m, f"MAVLink_{name}_message")
+    fields = zip(cls.fieldnames, cls.fieldtypes, strict=True)
+    lengths = dict(zip(cls.ordered_fieldnames, cls.array_lengths, strict=True))
+    fixed = {"target_system": st.just(1), "target_component": st.just(1)}
+    kinds = [fixed[name] if name in fixed else _field(kind, lengths[name]) for name, kind in fields]
+    return st.tuples(st.just(name), *kinds)
+
+
+KINDS = (
+    "heartbeat", "command_long", "command_int", "set_mode", "mission_count", "mission_item",
+    "mission_item_int", "mission_request_list", "mission_request_int", "mission_request",
+    "mission_clear_all", "mission_ack", "mission_set_current", "param_request_list",
+    "param_request_read", "param_set", "request_data_stream", "timesync", "ping",
+    "file_transfer_protocol",
+)  # fmt: skip
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.lists(st.one_of(*map(_messages, KINDS)), min_size=1, max_size=12))
+def test_no_message_breaks_the_session(tmp_path_factory, messages):
+    rig = MAVRig(tmp_path_factory.mktemp("rig"))
+    client = rig.client()
+    for name, *fields in messages:
+        client.send(name, *fields)
+    rig.clock.pump([0.25] * 8)
+    rig.telemetry()
+    assert client.of("HEARTBEAT")
 
 
 @pytest.fixture
@@ -305,6 +349,21 @@ def test_a_ground_station_counts_while_its_heartbeats_arrive(tmp_path, role, kin
     assert control.wants_telemetry is counts
     rig.clock.advance(5.1)
     assert control.wants_telemetry is False
+
+
+def test_a_row_is_reached_when_the_next_one_is_flown(rig):
+    client = rig.client()
+    rig.fly()
+    content = dict(rig.endpoint.aircraft.frame.content)
+    for mode, item, is_finished in (
+        ("LOITER", 1, False), ("LOITER", 3, False), ("MISSION", 3, False), ("MISSION", 4, False),
+        ("MISSION", 4, True),
+    ):  # fmt: skip
+        plan = {"id": "x", "count": 4, "item": item, "is_finished": is_finished}
+        control = {"mode": mode, "selected": mode}
+        more = {"mission": plan, "flight_control": control, "flight_mode": "SETPOINT"}
+        rig.endpoint.on_frame({**content, **more}, 1)
+    assert [each.seq for each in client.of("MISSION_ITEM_REACHED")] == [3, 4]
 
 
 def test_too_many_clients_are_refused_and_counted(rig):
