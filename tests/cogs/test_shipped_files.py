@@ -9,6 +9,7 @@ from android_cog.config import ANDROID
 from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
 from gps_cog.config import GPS
+from mavlink_cog.config import MAVLINK
 from mission_control_cog.config import MISSION_CONTROL
 from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
@@ -22,7 +23,18 @@ from up.flight_controller.profile_wire import AIRFRAME
 ROOT = Path(__file__).parents[2]
 
 
-FILES = [ANDROID, ARDUINO, BLACK_BOX, DISCOVERY, GPS, MISSION_CONTROL, PIDS, SENSORS, AIRFRAME]
+FILES = [
+    ANDROID,
+    ARDUINO,
+    BLACK_BOX,
+    DISCOVERY,
+    GPS,
+    MAVLINK,
+    MISSION_CONTROL,
+    PIDS,
+    SENSORS,
+    AIRFRAME,
+]
 COGS = sorted(path.name for path in (ROOT / "cogs").glob("*_cog"))
 
 

@@ -35,7 +35,7 @@ ROLE_KEY = "mission_control.yml: role"
 PLAIN_KEY = "mission_control.yml: i_accept_plain"
 SECURITY_KEY = "mission_control.yml: remote_server.security"
 UNPROTECTED = "this link requires protected messages: pair this device ('up keys add')"
-AUDITED = frozenset({LINK, "ground"})
+AUDITED = frozenset({LINK, "ground", "mavlink"})
 
 
 UNWATCHED_PERIOD_S = 10.0
