@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 from twisted.internet.error import CannotListenError
@@ -17,9 +17,9 @@ from up.errors import UserError
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, decode
 from up_mavlink.address import read_address
-from up_mavlink.endpoint import Endpoint, Settings
-from up_mavlink.personas import BY_NAME
-from up_mavlink.signing import read_key
+
+if TYPE_CHECKING:
+    from up_mavlink.endpoint import Endpoint
 
 LINK = "mavlink"
 
@@ -122,6 +122,11 @@ class MAVLink(BaseStartedModule):
             await self._endpoints.pop()[0].stop()
 
     def _start(self, number: int, config: EndpointConfig) -> None:
+        # Imported here: without an endpoint nothing of it is needed.
+        from up_mavlink.endpoint import Endpoint, Settings
+        from up_mavlink.personas import BY_NAME
+        from up_mavlink.signing import read_key
+
         key = None
         if config.signing == "require":
             key = read_key(self.context.config_folder / config.key_file)
