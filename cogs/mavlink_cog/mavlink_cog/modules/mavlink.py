@@ -66,7 +66,7 @@ class MAVLink(BaseStartedModule):
 
     def on_init(self) -> None:
         self._endpoints: list[tuple[Endpoint, Role]] = []
-        self.mission_control.add_outlet(self)
+        self.mission_control.add_outlet(self, LINK)
         self.up.command_executor.register_command(TelemetryCommand, self.on_telemetry)
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
@@ -87,6 +87,7 @@ class MAVLink(BaseStartedModule):
         """Take a message for the ground: part of a plan, gains."""
         if not self._endpoints:
             return False
+        # The message itself comes first; after it, its form for the stations with keys.
         message = decode(line.partition(b"\n")[0])
         for endpoint, _ in self._endpoints:
             self.context.reactor.callLater(0, endpoint.on_message, message)

@@ -35,7 +35,6 @@ ROLE_KEY = "mission_control.yml: role"
 PLAIN_KEY = "mission_control.yml: i_accept_plain"
 SECURITY_KEY = "mission_control.yml: remote_server.security"
 UNPROTECTED = "this link requires protected messages: pair this device ('up keys add')"
-AUDITED = frozenset({LINK, "ground", "mavlink"})
 
 
 UNWATCHED_PERIOD_S = 10.0
@@ -72,6 +71,7 @@ class MissionControlProvider(BaseMissionControlProvider):
         super().__init__(config, silent)
         self._uplink: Uplink | None = None
         self._outlets: list[Outlet] = []
+        self._audited = {LINK}
         self._telemetry_faults = 0
         self._thinning = Thinning()
         self._sent_s = 0.0
@@ -114,9 +114,10 @@ class MissionControlProvider(BaseMissionControlProvider):
                 tls=TLSFiles(self.context.config_folder / server.tls) if server.tls else None,
             )
 
-    def add_outlet(self, outlet: Outlet) -> None:
-        """Send all data for the ground to ``outlet`` too."""
+    def add_outlet(self, outlet: Outlet, link: str) -> None:
+        """Send all data for the ground to ``outlet`` too; the Commands of its link are audited."""
         self._outlets.append(outlet)
+        self._audited.add(link)
 
     @property
     def connected(self) -> bool:
@@ -270,7 +271,7 @@ class MissionControlProvider(BaseMissionControlProvider):
         state = os.environ.get("STATE_DIRECTORY", "").partition(":")[0]
         path = self.config.audit_log or (state and f"{state}/audit.jsonl")
         if path:
-            self._audit = AuditLog(self.context.reactor, Path(path), AUDITED)
+            self._audit = AuditLog(self.context.reactor, Path(path), self._audited)
             self.up.command_executor.register_command(
                 CommandAnsweredCommand, self._audit.on_answered
             )
