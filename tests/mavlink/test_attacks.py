@@ -1,7 +1,10 @@
 """What a hostile MAVLink client tries; each attack succeeds only without its rule."""
 
+import json
+
 import pytest
 from mavlink_cog.config import MAVLINK
+from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 
 from tests.mavlink.rig import MAVRig
 from up.commands.command_receiver import CommandReceiver
@@ -216,3 +219,17 @@ def test_the_configuration_refuses_an_endpoint_that_strangers_could_use(endpoint
 def test_the_role_of_an_endpoint(endpoint, role, tmp_path):
     values = MAVLINK.parse(f"endpoints: [{{{endpoint}}}]\n", tmp_path / "mavlink.yml")
     assert values.endpoints[0].granted is role
+
+
+def test_what_was_tried_is_in_the_audit_log(tmp_path, monkeypatch):
+    monkeypatch.setenv("STATE_DIRECTORY", str(tmp_path))
+    rig = MAVRig(tmp_path, role=Role.OPERATOR)
+    control = rig.up.get_module(MissionControlProvider)
+    control._open_audit()
+    control._audit._disk.wait()
+    rig.clock.advance(0)
+    assert rig.client().command(ARM, 1) == DENIED
+    control._audit._disk.wait()
+    lines = (tmp_path / "audit.jsonl").read_text(encoding="utf-8").splitlines()
+    found = [(each["link"], each["name"], each["code"]) for each in map(json.loads, lines)]
+    assert found == [("mavlink", "up.arm", "forbidden")]
