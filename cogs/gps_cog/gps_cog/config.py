@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up.commands.origin import link_name_problem
 from up.config import ConfigFile, key, mapping
 from up.fields import Constraint
 
 SPEEDS = (9600, 38400, 115200, 57600, 230400)
 """Those of receivers as delivered come first."""
-_NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +68,8 @@ class GpsConfig:
     def problems(self) -> Iterator[tuple[str, str]]:
         ports: dict[str, str] = {}
         for name, receiver in self.receivers.items():
-            if not _NAME.fullmatch(name):
-                yield "receivers", f"{name!r} must be letters from a to z, digits and _"
+            if problem := link_name_problem(name):
+                yield "receivers", problem
             if receiver.source == "gpsd":
                 continue
             if receiver.port in ports:

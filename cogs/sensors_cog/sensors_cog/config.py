@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up.commands.origin import link_name_problem
 from up.config import ConfigFile, key, mapping
 from up.fields import Constraint
 
-_NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
 _CLASS = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+", re.ASCII)
 CHIPS = {
     "bmp280": "sensors_cog.chips.barometers.Bmp280",
@@ -71,8 +71,8 @@ class SensorsConfig:
 
     def problems(self) -> Iterator[tuple[str, str]]:
         for name, sensor in self.sensors.items():
-            if not _NAME.fullmatch(name):
-                yield "sensors", f"{name!r} must be letters from a to z, digits and _"
+            if problem := link_name_problem(name):
+                yield "sensors", problem
             if sensor.chip not in CHIPS and not _CLASS.fullmatch(sensor.chip):
                 yield "sensors", f"{name}: chip must be one of {', '.join(CHIPS)}, or a class"
 
