@@ -53,6 +53,11 @@ class Aircraft:
         self._transfers: dict[str, PlanTransfer] = {}
         self._rows: dict[str, tuple[Rows, float]] = {}
 
+    @property
+    def problem(self) -> str:
+        """Return why no Command can be sent now; empty if it can."""
+        return self._port.problem
+
     def on_frame(self, content: Mapping[str, Any], beacon: int | None) -> None:
         self.frame = Frame(content, beacon)
         self.received_s = self._clock.seconds()
@@ -76,7 +81,7 @@ class Aircraft:
         if not commands:
             notify(Reply())
             return
-        if problem := self._port.problem:
+        if problem := self.problem:
             notify(Reply(NO_CONTROL, problem))
             return
         first, *rest = commands
@@ -131,7 +136,7 @@ class Aircraft:
         if plan in self._transfers:
             on_end(PlanOutcome(BUSY.code, BUSY.reason))
             return
-        if items is not None and (problem := self._port.problem):
+        if items is not None and (problem := self.problem):
             on_end(PlanOutcome(NO_CONTROL, problem))
             return
 
