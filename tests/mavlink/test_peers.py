@@ -12,6 +12,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from pymavlink import mavutil
 
 from tests.ground.aircraft import Ground
 from tests.mavlink.flying import Flying
@@ -45,6 +46,7 @@ def flying(proxy, tmp_path_factory):
         {"url": "udpin:127.0.0.1:0", "role": "pilot"},
         {"url": "tcpin:127.0.0.1:0", "role": "pilot", "signing": "require", "key_file": "key.txt"},
         proxy=proxy,
+        **{"failsafe.yml": {"uplink_lost": {"delay_s": 2.0}}},
     )
     yield found
     found.stop()
@@ -157,6 +159,26 @@ def check_mavsdk(told):
         "not at AUTO": "COMMAND_DENIED", "by sticks": True,
     }, texts  # fmt: skip
     assert times_ms["connect ms"] < 5000
+
+
+RETURN, LOITER = 11, 12
+"""Numbers of ArduPlane's modes."""
+
+
+def test_the_aircraft_returns_after_the_last_heartbeat_of_its_only_ground(flying):
+    flying.pilot.move(**PILOT["auto"], throttle=1600)
+    link = mavutil.mavlink_connection(f"udpout:127.0.0.1:{flying.ports[0]}", source_system=255)
+
+    def mode(wanted, is_there):
+        if is_there:
+            link.mav.heartbeat_send(6, 8, 0, 0, 4)
+            link.mav.set_mode_send(1, 1, wanted)
+        beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=1.0)
+        return beat is not None and beat.custom_mode == wanted
+
+    until(lambda: mode(LOITER, True), "LOITER")
+    until(lambda: mode(RETURN, False), "RETURN")
+    link.close()
 
 
 class MAVProxy:

@@ -357,9 +357,9 @@ def test_a_ground_station_counts_while_its_heartbeats_arrive(tmp_path, role, kin
     client = rig.client()
     heartbeat(client, kind)
     control = rig.module.mission_control
-    assert control.wants_telemetry is counts
+    assert control.has_ground is counts
     rig.clock.advance(5.1)
-    assert control.wants_telemetry is False
+    assert control.has_ground is False
 
 
 def test_a_row_is_reached_when_the_next_one_is_flown(rig):
