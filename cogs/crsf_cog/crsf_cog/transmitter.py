@@ -19,7 +19,7 @@ _NO_FUEL = b"\xff" * 4
 
 
 def telemetry_frames(content: Frame) -> bytes:
-    """Return the frames of what is known and fresh in telemetry."""
+    """Return the frames of the values that are known and fresh."""
     return b"".join(
         frame(type_, payload)
         for type_, build in _BUILDERS.items()

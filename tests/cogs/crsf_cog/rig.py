@@ -31,7 +31,7 @@ def statistics_frame(quality):
 
 
 class Arming(BaseModule):
-    """Arms for everybody whose Command gets here."""
+    """Counts the Commands that were not refused."""
 
     def on_init(self):
         self.armed = []

@@ -152,7 +152,7 @@ def select_by_the_return_of_the_signal(rig):
 
 
 def select_by_the_receivers_failsafe(rig):
-    """It sends the channels of its own failsafe, and reports that it receives nothing."""
+    """In failsafe it sends preset channels and a link quality of 0."""
     rig.advance(0.5)
     rig.pulses[6], rig.quality = 2012, 0
     rig.advance(1.0)

@@ -30,7 +30,7 @@ MAX_STATISTICS_AGE_S = 1.0
 class CrsfReceiver(BaseStartedModule):
     """Publishes what the receiver of crsf.yml receives, and sends telemetry to the transmitter.
 
-    The channels are valid while the receiver reports a link quality above 0: in its own failsafe it
+    The channels are valid while the receiver reports a link quality above 0: in failsafe it
     may continue to send channels. The mode channel sends ``up.flight_mode.set`` with the rights of
     an operator. An absent receiver is not a failure: its port is tried again.
     """

@@ -12,7 +12,7 @@ import { FlightTimer } from "./state/flight_timer.js";
 import { flagText, numberText, UNKNOWN } from "./state/format.js";
 import { Store } from "./state/store.js";
 
-/** What stands around the horizon: mode, arming, flight time, battery, the way home, the link. */
+/** The readouts around the horizon: mode, arming, flight time, battery, the way home, the link. */
 function mountReadouts(element, store) {
   const readouts = [];
   const corner = (name, ...values) => element.append(html(`p.corner.is-${name}`, {}, ...values));
