@@ -12,7 +12,7 @@ from up.mission.plan_transfer import PlanOutcome, PlanTransfer
 from up.mission.reliable_requests import Notify, ReliableRequests, Reply
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Clock
-from up_mavlink.frame import Frame
+from up.telemetry_frame import Frame
 from up_mavlink.parameters import Parameters
 from up_mavlink.personas import Persona
 from up_mavlink.plan_rows import Rows, write_rows
