@@ -78,6 +78,7 @@ setup(
         "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
         "mavlink": ["pymavlink>=2.4.41"],
+        "metrics": ["prometheus-client>=0.16"],
         # To make certificates; TLS itself is in Python. Debian 12 has 38.
         "tls": ["cryptography>=38"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
@@ -99,6 +100,7 @@ setup(
             # Peers of MAVLink; tools/install adds MAVProxy without its graphics.
             "mavsdk>=4.1; platform_machine == 'x86_64'",
             "defusedxml>=0.7",
+            "prometheus-client>=0.16",
             "types-PyYAML",
             "types-psutil",
             "types-pyserial",

@@ -231,6 +231,12 @@ def _add_serve(verbs: Any) -> None:
         " again for each one",
     )
     _add_connection(serve, aircraft=False)
+    serve.add_argument(
+        "--metrics",
+        type=whole_number(0, 65535),
+        metavar="PORT",
+        help="port on 127.0.0.1 of a page for Prometheus; 0: any free port (default: none)",
+    )
     add_page_options(serve)
 
 

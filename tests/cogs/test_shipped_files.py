@@ -10,6 +10,7 @@ from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
 from gps_cog.config import GPS
 from mavlink_cog.config import MAVLINK
+from metrics_cog.config import METRICS
 from mission_control_cog.config import MISSION_CONTROL
 from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
@@ -30,6 +31,7 @@ FILES = [
     DISCOVERY,
     GPS,
     MAVLINK,
+    METRICS,
     MISSION_CONTROL,
     PIDS,
     SENSORS,
