@@ -75,6 +75,7 @@ setup(
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
+        "foxglove": ["foxglove-sdk>=0.16"],
         "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
         "mavlink": ["pymavlink>=2.4.41"],
@@ -91,6 +92,7 @@ setup(
             "pytest-timeout>=2.3",
             "hypothesis>=6.100",
             "mcap>=1.2",
+            "foxglove-sdk>=0.16",
             "gpxpy>=1.6",
             "segno>=1.5",
             "simple-pid>=2.0",
