@@ -199,9 +199,8 @@ class Uplink:
 
     def _failed(self, address: str) -> None:
         self._addresses.failed(address)
-        if self._paths is not None and address:
-            self._paths.failed()
-        self._stay()
+        if address:
+            self._stay()
 
     def _new_service(self) -> Any:
         factory: Any = Factory.forProtocol(self._build)
@@ -216,7 +215,9 @@ class Uplink:
         self._service.startService()
 
     def _stay(self) -> None:
-        """Keep the present link, if there is one, when the attempt by another path failed."""
+        """Keep the present link, if there is one: the attempt failed."""
+        if self._paths is not None:
+            self._paths.failed()
         if self._left is not None:
             given_up, self._service, self._left = self._service, self._left, None
             self._reactor.callLater(0, given_up.stopService)
@@ -244,7 +245,9 @@ class Uplink:
         return self._attempted
 
     def _take_token(self, token: str) -> None:
-        self._token = token
+        # A refused attempt takes no token from the link that it was to replace.
+        if token or self._left is None:
+            self._token = token
 
     def _ready(self, link: UplinkProtocol) -> None:
         self.connects += 1

@@ -113,6 +113,11 @@ class UplinkPaths:
             self._selector.lost(self._reactor.seconds())
         self._is_leaving = False
 
+    def leave(self, code: str, reason: str) -> None:
+        """Begin to connect by another path; `failed`, `made` or `ended` ends it."""
+        self._is_leaving = True
+        self._leave(code, reason)
+
     def take_probe_bytes(self) -> int:
         """Return what the probes have cost since the last call."""
         taken, self._probe_bytes = self._probe_bytes, 0
@@ -137,13 +142,10 @@ class UplinkPaths:
             # Counted, not measured: a program that slept must first give its peer time.
             self._silent_checks += 1
         if self._is_silent(answer) and selector.has_other(selector.current, now_s):
-            self._is_leaving = True
-            text = f"no answer by {self.name} for {SILENCE_S:g} s"
             selector.lost(now_s)
-            self._leave("path_silent", text)
+            self.leave("path_silent", f"no answer by {self.name} for {SILENCE_S:g} s")
         elif selector.has_better(now_s):
-            self._is_leaving = True
-            self._leave("better_path", f"a better path than {self.name} is back")
+            self.leave("better_path", f"a better path than {self.name} is back")
 
     def _is_silent(self, answer: Answered | None) -> bool:
         limit_s = max(SILENCE_S, ROUND_TRIPS * answer.round_trip_s) if answer else SILENCE_S

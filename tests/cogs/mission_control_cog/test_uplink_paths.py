@@ -7,12 +7,14 @@ from types import SimpleNamespace
 import pytest
 from mission_control_cog import uplink_paths
 from mission_control_cog.config import MISSION_CONTROL
+from mission_control_cog.uplink import Uplink
 from mission_control_cog.uplink_paths import CHECK_S, SILENCE_S, UplinkPaths
 from twisted.internet.testing import MemoryReactorClock
 from twisted.logger import globalLogPublisher
 
 from tests.cogs.mission_control_cog.hostile_relay import Ground, pair
 from tests.cogs.mission_control_cog.system import Aircraft
+from tests.cogs.mission_control_cog.test_uplink import OK, accepted
 from tests.cogs.mission_control_cog.two_paths import (
     BEST,
     PROXY,
@@ -21,6 +23,7 @@ from tests.cogs.mission_control_cog.two_paths import (
     swallow,
     two_paths,
 )
+from tests.cogs.peers import Server
 from tests.proxy.namespace import light, must
 from tests.proxy.program import Program
 from tests.support.reactor import reactor, run_in_reactor, until
@@ -113,6 +116,44 @@ def test_a_slow_path_and_a_program_that_slept_are_not_silence():
     it.clock.advance(5)
     it.run(0.5, is_heard=False)
     assert it.left == []
+
+
+def test_a_refused_attempt_keeps_the_link_and_a_lost_link_keeps_the_attempt():
+    ready, lost = [], []
+
+    async def fly():
+        server = Server(reactor)
+        port = await server.open()
+        uplink = Uplink(
+            reactor, "127.0.0.1", port, "x", interfaces=("lo", "lo"), return_after_s=10.0,
+            on_message=print, on_malformed=print, on_ready=ready.append,
+            on_lost=lambda: lost.append(1),
+        )  # fmt: skip
+        uplink.start()
+        first = await accepted(server)
+        await until(lambda: ready)
+        uplink._paths.leave("path_silent", "")
+        refused = await server.peer(1)
+        await until(lambda: refused.received)
+        refused.say(b'UP1 error code=token reason="no"\n')
+        await refused.closed
+        assert uplink.is_ready
+        uplink._paths.leave("path_silent", "")
+        second = await server.peer(2)
+        await until(lambda: b"token=" in second.received)
+        first.transport.abortConnection()
+        await until(lambda: lost)
+        assert not uplink.is_ready
+        second.say(OK)
+        await until(lambda: len(ready) == 2)
+        uplink._paths.leave("better_path", "")
+        third = await accepted(server, 3)
+        await second.closed
+        assert (len(ready), len(lost), uplink.is_ready, third.is_open) == (3, 1, True, True)
+        await uplink.stop()
+        await server.close()
+
+    run_in_reactor(fly)
 
 
 @pytest.mark.parametrize(
