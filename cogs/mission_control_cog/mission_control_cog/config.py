@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import socket
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,6 +57,8 @@ class RemoteServerConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
+        if self.interfaces and not hasattr(socket, "SO_BINDTODEVICE"):
+            yield "interfaces", "needs Linux"
         for name in self.interfaces:
             if not _INTERFACE.fullmatch(name):
                 yield "interfaces", f"{name!r} is not the name of an interface"

@@ -42,8 +42,11 @@ class OnInterface:
         connector = self._reactor.connectTCP(*args, **kwargs)
         client = connector.transport
         try:
-            option = socket.SO_BINDTODEVICE
-            client.getHandle().setsockopt(socket.SOL_SOCKET, option, self._name.encode())
+            handle = client.getHandle()
+        except AttributeError:
+            return connector  # without a socket the attempt fails by itself
+        try:
+            handle.setsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, self._name.encode())
         except OSError as error:
             reason = f"interface {self._name}: {error.strerror}"
             client.failIfNotConnected(getConnectError((error.errno, reason)))

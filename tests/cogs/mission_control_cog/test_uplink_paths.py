@@ -1,5 +1,6 @@
 """Failover between two interfaces: real proxy, real aircraft, real ground with a key."""
 
+import errno
 import socket
 import struct
 from types import SimpleNamespace
@@ -8,7 +9,10 @@ import pytest
 from mission_control_cog import uplink_paths
 from mission_control_cog.config import MISSION_CONTROL
 from mission_control_cog.uplink import Uplink
-from mission_control_cog.uplink_paths import CHECK_S, SILENCE_S, UplinkPaths
+from mission_control_cog.uplink_paths import CHECK_S, SILENCE_S, OnInterface, UplinkPaths
+from twisted.internet.endpoints import TCP4ClientEndpoint
+from twisted.internet.error import ConnectError
+from twisted.internet.protocol import Factory, Protocol
 from twisted.internet.testing import MemoryReactorClock
 from twisted.logger import globalLogPublisher
 
@@ -152,6 +156,16 @@ def test_a_refused_attempt_keeps_the_link_and_a_lost_link_keeps_the_attempt():
         assert (len(ready), len(lost), uplink.is_ready, third.is_open) == (3, 1, True, True)
         await uplink.stop()
         await server.close()
+
+    run_in_reactor(fly)
+
+
+def test_an_interface_that_is_absent_fails_the_attempt_with_its_name():
+    async def fly():
+        endpoint = TCP4ClientEndpoint(OnInterface(reactor, "absent0"), "127.0.0.1", 9)
+        with pytest.raises(ConnectError) as failed:
+            await endpoint.connect(Factory.forProtocol(Protocol))
+        assert failed.value.osError == errno.ENODEV
 
     run_in_reactor(fly)
 
