@@ -75,9 +75,11 @@ setup(
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
+        "foxglove": ["foxglove-sdk>=0.16"],
         "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
         "mavlink": ["pymavlink>=2.4.41"],
+        "metrics": ["prometheus-client>=0.16"],
         # To make certificates; TLS itself is in Python. Debian 12 has 38.
         "tls": ["cryptography>=38"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
@@ -90,6 +92,7 @@ setup(
             "pytest-timeout>=2.3",
             "hypothesis>=6.100",
             "mcap>=1.2",
+            "foxglove-sdk>=0.16",
             "gpxpy>=1.6",
             "segno>=1.5",
             "simple-pid>=2.0",
@@ -99,6 +102,7 @@ setup(
             # Peers of MAVLink; tools/install adds MAVProxy without its graphics.
             "mavsdk>=4.1; platform_machine == 'x86_64'",
             "defusedxml>=0.7",
+            "prometheus-client>=0.16",
             "types-PyYAML",
             "types-psutil",
             "types-pyserial",

@@ -23,6 +23,7 @@ SUBJECTS = {
     "flight_log": "writing and reading flight logs beside the official package",
     "relay": "the proxy beside HAProxy and socat",
     "tls": "the proxy's TLS beside HAProxy's: round trip, memory, handshakes, reconnect",
+    "uplinks": "failover between two network interfaces, with TLS and keys",
     "firmware": "the compiled firmware in the AVR simulator",
     "navigation": "loiter, legs, return, lost position and a stopped motor with a phone's GPS",
     "attitude": "the firmware's attitude beside the truth, with the gyro errors of each seed",

@@ -18,6 +18,7 @@ from up.cli.option_parser import (
 from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
+from up_ground.foxglove_verb import add_foxglove
 from up_ground.key_store import KeyStore
 from up_ground.mavlink_verb import add_mavlink
 from up_ground.mission_verb import add_mission
@@ -109,6 +110,7 @@ def make_parser(environ: Mapping[str, str]) -> OptionParser:
     _add_control(verbs)
     add_mission(verbs)
     add_mavlink(verbs)
+    add_foxglove(verbs)
     for verb in dict.fromkeys(verbs.choices.values()):
         _add_connection(verb)
     _add_serve(verbs)
@@ -231,6 +233,12 @@ def _add_serve(verbs: Any) -> None:
         " again for each one",
     )
     _add_connection(serve, aircraft=False)
+    serve.add_argument(
+        "--metrics",
+        type=whole_number(0, 65535),
+        metavar="PORT",
+        help="port on 127.0.0.1 of a page for Prometheus; 0: any free port (default: none)",
+    )
     add_page_options(serve)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import socket
-import struct
 from typing import TYPE_CHECKING, Any
 
 from twisted.internet.protocol import Protocol, connectionDone
@@ -11,7 +9,7 @@ from twisted.python.failure import Failure
 
 from up.protocols.line_decoder import LineDecoder
 from up.protocols.proxy_lines import PREFIX
-from up.protocols.tcp_options import watch_peer
+from up.protocols.tcp_options import answered, watch_peer
 from up.system.clock import Clock, Timer, cancel
 from up.tls.errors import TLSError
 
@@ -21,7 +19,6 @@ if TYPE_CHECKING:
 USER_TIMEOUT_MS = 1500
 HEARTBEAT_S = 1.0
 HELLO_TIMEOUT_S = 5.0
-_TCPI_RTT_OFFSET = 68
 
 
 class GroundProtocol(Protocol):
@@ -72,15 +69,8 @@ class GroundProtocol(Protocol):
 
     def round_trip_ms(self) -> float | None:
         """Return the kernel's smoothed round trip to the peer; None if not available."""
-        option = getattr(socket, "TCP_INFO", None)
-        if option is None or not self._is_open:
-            return None
-        try:
-            info = self.transport.getHandle().getsockopt(socket.IPPROTO_TCP, option, 104)
-            (rtt_us,) = struct.unpack_from("=I", info, _TCPI_RTT_OFFSET)
-        except (OSError, struct.error):
-            return None
-        return float(rtt_us) / 1000
+        answer = answered(self.transport) if self._is_open else None
+        return None if answer is None else answer.round_trip_s * 1000
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
         watch_peer(self.transport, USER_TIMEOUT_MS)

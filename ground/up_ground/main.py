@@ -17,6 +17,7 @@ from up.errors import UserError
 from up.fields import show
 from up.output import echo
 from up.protocols.general_message import encode
+from up.system.figures import PACKAGE_MISSING, is_installed
 from up_ground.arguments import make_parser, settings_of
 from up_ground.catalogue import Catalogue, command_fields, describe, fault_of
 from up_ground.control_task import LeaveControl, RequestControl
@@ -107,6 +108,8 @@ def commands(options: argparse.Namespace) -> int:
 
 def serve(options: argparse.Namespace) -> int:
     """Serve the ground station as a page for browsers."""
+    if options.metrics is not None and not is_installed():
+        raise UsageError(f"--metrics {PACKAGE_MISSING[0]}", PACKAGE_MISSING[1])
     page, chosen = PageOptions.of(options, os.environ), fleet_of(options)
     catalogue = Catalogue.installed()
     return run(
@@ -114,6 +117,7 @@ def serve(options: argparse.Namespace) -> int:
             reactor,
             lambda subscribers: make_sessions(reactor, chosen, os.environ, subscribers, catalogue),
             catalogue=catalogue,
+            metrics_port=options.metrics,
         )
     )
 

@@ -11,8 +11,6 @@ from up_proxy.aircraft import AircraftSession
 from up_proxy.loop_tick import LoopTick
 from up_proxy.registry import AircraftRegistry
 
-CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
-
 Samples = list[tuple[Mapping[str, str], float]]
 """Labels and value of each sample."""
 Metric = tuple[str, str, str, Samples]

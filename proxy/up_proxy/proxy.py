@@ -3,18 +3,20 @@
 from pathlib import Path
 from typing import Any
 
+from twisted.internet.error import CannotListenError
+
 from up.log import UpLogger
 from up.protocols.proxy_lines import Side
+from up.system.metrics_page import serve_metrics
 from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
 from up.tls.files import TLSFiles
 from up_proxy.acceptor import Acceptor
 from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
-from up_proxy.listener import StartError, listen
+from up_proxy.listener import StartError, cannot_listen, listen
 from up_proxy.loop_tick import LoopTick
 from up_proxy.metrics import render
-from up_proxy.metrics_server import serve_metrics
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
 
@@ -68,7 +70,7 @@ class Proxy:
                 self._acceptors.append(self._acceptor(Side.AIRBORNE, own.airborne_port, tls))
                 self._acceptors.append(self._acceptor(Side.GROUND, own.ground_port, tls))
             if config.metrics:
-                self._metrics_port = serve_metrics(self._reactor, config.metrics_port, self.page)
+                self._metrics_port = self._serve_metrics(config.metrics_port)
         except (StartError, TLSError) as error:
             for acceptor in self._acceptors:
                 acceptor.end()
@@ -97,6 +99,12 @@ class Proxy:
         self._poller.reap()
         self._poller.stop()
         self.registry.stop()
+
+    def _serve_metrics(self, port: int) -> Any:
+        try:
+            return serve_metrics(self._reactor, port, self.page)
+        except CannotListenError as error:
+            raise cannot_listen("metrics port", port, error.socketError) from None
 
     def is_healthy(self) -> bool:
         return bool(self._acceptors) and all(acceptor.is_open() for acceptor in self._acceptors)

@@ -167,9 +167,14 @@ class _Pending:
 
     def _begin(self) -> None:
         """Take memory for TLS when the first byte shows that the peer speaks it."""
-        first = self._socket.recv(1, socket.MSG_PEEK)
+        try:
+            first = self._socket.recv(1, socket.MSG_PEEK)
+        except ConnectionError:
+            first = b""
         if not first:
-            raise ConnectionError
+            # A probe of the path or the port: no fault.
+            self._owner.end(self)
+            return
         if first != _TLS_HANDSHAKE:
             self._socket.send(Refused(MALFORMED, "this port speaks TLS alone").encode())
             self._refuse(TLSError("it does not speak TLS on this port", PEER_PLAIN))

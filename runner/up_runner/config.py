@@ -10,6 +10,7 @@ from typing import Literal
 from up.config import ConfigFile, items, key, mapping, section
 from up.config.schema import ListOf
 from up.fields import Constraint
+from up.system.figures import PACKAGE_MISSING, is_installed
 from up_runner.request import NAME
 
 Security = Literal["auto", "off", "accept", "require"]
@@ -156,6 +157,14 @@ class RunnerConfig:
         "Requests under a key of keys.yml beside this file ('up keys'): require refuses all "
         "others; accept takes them too; off takes no keys; auto is require for peers with public "
         "addresses, accept for others, with tls or with i_accept_plain.",
+    )
+    metrics_port: int | None = key(
+        None,
+        "TCP port on 127.0.0.1 of a page for Prometheus, usually 9305. Empty: none. 0: any free "
+        "port, which is logged.",
+        name="metrics port",
+        minimum=0,
+        maximum=65535,
     )
     key_quota: KeyQuota = section(KeyQuota, name="key quota")
     i_accept_plain: bool = key(
@@ -304,8 +313,10 @@ class RunnerConfig:
         max_length=32,
     )
 
-    def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield problems between keys: the attribute and the sentence."""
+    def problems(self) -> Iterator[tuple[str, str] | tuple[str, str, str]]:
+        """Yield problems between keys: the attribute, the sentence and, of some, its code."""
+        if self.metrics_port is not None and not is_installed():
+            yield "metrics_port", *PACKAGE_MISSING
         for attribute, names in (
             ("settable", self.settable),
             ("dynamic_ports", self.dynamic_ports),

@@ -60,6 +60,10 @@ class Instances:
         text = f"{len(shown)} of {self._limit} instances"
         return text + (": " if shown else "") + ", ".join(shown)
 
+    def states(self) -> dict[str, State]:
+        """Return the states of the instances by their names."""
+        return {name: each.state for name, each in self._instances.items()}
+
     def open(self) -> None:
         """Adopt the instances of an earlier runner, and start maintaining the logs."""
         running = dict(self._host.running())

@@ -17,6 +17,8 @@ from twisted.python.failure import Failure
 from up.config import ConfigErrors
 from up.config.keys_file import KEYS
 from up.key_ring import KeyRing
+from up.system.figures import text_of
+from up.system.metrics_page import serve_metrics
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
@@ -28,6 +30,7 @@ from up_runner.instance_host import Application, InstanceHost
 from up_runner.instances import Instances
 from up_runner.key_starts import KeyStarts
 from up_runner.log_keeper import LogKeeper
+from up_runner.metrics import figures_of
 from up_runner.paths import Paths
 from up_runner.policy import Policy, RestartPolicy
 from up_runner.request import Request
@@ -93,6 +96,7 @@ class Runner:
             gate=self._gate,
         )
         self._port: Any = None
+        self._metrics_port: Any = None
 
     @property
     def port(self) -> int:
@@ -121,6 +125,8 @@ class Runner:
                 f"cannot listen on port {self._config.port}: {error.socketError}; "
                 "set another port in runner.yml or with --port",
             ) from None
+        if self._config.metrics_port is not None:
+            self._open_metrics(self._config.metrics_port)
         self.instances.open()
         self._log.info("listens on port {port}", code="port_open", port=self.port)
         self._notifier.ready(self.instances.summary())
@@ -141,9 +147,25 @@ class Runner:
                 text = "leaves its instances running: {all}"
                 self._log.info(text, code="leaving_instances", all=self.instances.summary())
             self.instances.close()
+        if self._metrics_port is not None:
+            await self._metrics_port.stopListening()
         self._pinger.stop()
         self._keys.stop()
         self._run_folder.release()
+
+    def _open_metrics(self, port: int) -> None:
+        def page() -> str:
+            return text_of(figures_of(self.instances, self.server))
+
+        try:
+            self._metrics_port = serve_metrics(self._reactor, port, page)
+        except CannotListenError as error:
+            self._port.stopListening()
+            self._run_folder.release()
+            text = f"cannot listen on port {port}: {error.socketError}; set another metrics port"
+            raise CannotStart("cannot_listen", text) from None
+        port = self._metrics_port.getHost().port
+        self._log.info("metrics page on port {port}", code="metrics_open", port=port)
 
     def _read_keys(self) -> None:
         try:

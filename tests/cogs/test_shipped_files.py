@@ -11,6 +11,7 @@ from crsf_cog.config import CRSF
 from discovery_cog.config import DISCOVERY
 from gps_cog.config import GPS
 from mavlink_cog.config import MAVLINK
+from metrics_cog.config import METRICS
 from mission_control_cog.config import MISSION_CONTROL
 from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
@@ -32,6 +33,7 @@ FILES = [
     DISCOVERY,
     GPS,
     MAVLINK,
+    METRICS,
     MISSION_CONTROL,
     PIDS,
     SENSORS,

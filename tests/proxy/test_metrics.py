@@ -13,8 +13,13 @@ from twisted.internet.testing import StringTransport
 from twisted.python.failure import Failure
 
 from tests.proxy.program import Client, Program, accepted, until
-from up_proxy.metrics import CONTENT_TYPE, page
-from up_proxy.metrics_server import CONNECTION_LIMIT_S, MAX_CONNECTIONS, MetricsFactory
+from up.system.metrics_page import (
+    CONNECTION_LIMIT_S,
+    CONTENT_TYPE,
+    MAX_CONNECTIONS,
+    MetricsFactory,
+)
+from up_proxy.metrics import page
 
 LINE = re.compile(r'[a-z_]+(\{[a-z]+="(\\.|[^"\\\n])*"(,[a-z]+="(\\.|[^"\\\n])*")*\})? \S+')
 

@@ -3,6 +3,7 @@
 import shutil
 import socket
 import ssl
+import struct
 import subprocess
 from pathlib import Path
 
@@ -302,6 +303,18 @@ def test_half_open_handshakes_are_bounded_and_the_others_served(certificates):
         assert sum(failed.values()) == 1000
         for sock in flood:
             sock.close()
+
+
+@pytest.mark.parametrize("lingers", [struct.pack("ii", 0, 0), struct.pack("ii", 1, 0)])
+def test_a_probe_that_closes_or_resets_is_no_failed_handshake(certificates, lingers):
+    with bench(certificates) as b:
+        acceptor = b.proxy._acceptors[2]
+        with socket.create_connection(("127.0.0.1", acceptor.port)) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, lingers)
+            b.until(lambda: len(acceptor.tls) == 1, "the probe")
+        b.until(lambda: len(acceptor.tls) == 0, "its end")
+        assert failures(b) == {}
+        assert sum(acceptor._sources.values()) == 0
 
 
 def test_slow_steps_wait_for_their_turn_behind_events():

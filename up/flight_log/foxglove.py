@@ -9,6 +9,8 @@ from typing import Any
 
 LOG = "foxglove.Log"
 LOCATION_FIX = "foxglove.LocationFix"
+PLACE_TOPIC = "/location"
+"""The topic of places."""
 
 LOG_LEVELS = {"debug": 1, "info": 2, "warn": 3, "error": 4, "critical": 5}
 """A level of twisted.logger as foxglove.Log's; 0 for an unknown one."""
@@ -79,3 +81,26 @@ def timestamp(time_ns: int) -> dict[str, int]:
     """Return nanoseconds since 1970 in the schemas' form of a time."""
     sec, nsec = divmod(time_ns, 1_000_000_000)
     return {"sec": sec, "nsec": nsec}
+
+
+def location_fix(
+    time_ns: int,
+    latitude_deg: float,
+    longitude_deg: float,
+    altitude_m: float | None,
+    accuracy_m: float | None,
+) -> dict[str, Any]:
+    """Return a position as Foxglove's map takes it; an accuracy is a radius of 68 %."""
+    variance = 0.0 if accuracy_m is None else accuracy_m**2
+    content: dict[str, Any] = {
+        "timestamp": timestamp(time_ns),
+        "frame_id": "",
+        "latitude": latitude_deg,
+        "longitude": longitude_deg,
+        "position_covariance": [variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, variance],
+        "position_covariance_type": 1 if variance else 0,
+    }
+    # An unknown altitude is left out; 0 would mean sea level.
+    if altitude_m is not None:
+        content["altitude"] = altitude_m
+    return content

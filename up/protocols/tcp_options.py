@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import socket
 import struct
+from dataclasses import dataclass
 from typing import Any
 
 from twisted.internet.error import ConnectionAborted, ConnectionDone
@@ -18,6 +19,8 @@ KEEPALIVE_PROBES = 3
 _TCPI_RETRANSMITS = 2
 _TCPI_TRAFFIC = struct.Struct("=128x QII 56x Q")
 """Bytes received, segments sent and received, bytes sent with repetitions (Linux 4.19)."""
+_TCPI_ANSWER = struct.Struct("=24x I 28x I 8x I")
+"""Unacknowledged segments, ms since the newest acknowledgement, smoothed round trip in us."""
 HEADER_BYTES, HEADER_BYTES_IP6 = 52, 72
 """IP and TCP headers of a segment, with the time stamps that every Linux peer sends."""
 UNSENT_LIMIT = 4096
@@ -69,6 +72,28 @@ def ip_bytes(transport: Any) -> int | None:
         received, out, into, sent = _TCPI_TRAFFIC.unpack(info)
         is_ip6 = ":" in transport.getPeer().host
         return int(sent + received + (out + into) * (HEADER_BYTES_IP6 if is_ip6 else HEADER_BYTES))
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """What a connection's peer has acknowledged."""
+
+    is_awaited: bool
+    """Whether sent bytes are not acknowledged yet."""
+    age_s: float
+    """Time since the newest acknowledgement."""
+    round_trip_s: float
+
+
+def answered(transport: Any) -> Answered | None:
+    """Return what the kernel knows of the peer's acknowledgements; None: not known."""
+    with contextlib.suppress(OSError, AttributeError, struct.error):
+        info = transport.getHandle().getsockopt(
+            socket.IPPROTO_TCP, socket.TCP_INFO, _TCPI_ANSWER.size
+        )
+        waiting, age_ms, trip_us = _TCPI_ANSWER.unpack(info)
+        return Answered(bool(waiting), age_ms / 1e3, trip_us / 1e6)
     return None
 
 

@@ -23,12 +23,13 @@ from up.flight_log.foxglove import (
     LOCATION_FIX_SCHEMA,
     LOG,
     LOG_SCHEMA,
+    PLACE_TOPIC,
+    location_fix,
     timestamp,
 )
 from up.flight_log.mcap_writer import McapWriter
 
 LOG_TOPIC = "log"
-PLACE_TOPIC = "/location"
 _ANY_OBJECT = {"type": "object"}
 
 
@@ -157,17 +158,11 @@ def _line(line: LogLine, time_ns: int) -> bytes:
 
 
 def _place(command: LocationCommand, time_ns: int) -> bytes:
-    """Return a position as Foxglove's map takes it; an accuracy is a radius of 68 %."""
-    variance = 0.0 if command.accuracy_m is None else command.accuracy_m**2
-    content: dict[str, Any] = {
-        "timestamp": timestamp(time_ns),
-        "frame_id": "",
-        "latitude": command.latitude_deg,
-        "longitude": command.longitude_deg,
-        "position_covariance": [variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, variance],
-        "position_covariance_type": 1 if variance else 0,
-    }
-    # An unknown altitude is left out; 0 would mean sea level.
-    if command.altitude_m is not None:
-        content["altitude"] = command.altitude_m
+    content = location_fix(
+        time_ns,
+        command.latitude_deg,
+        command.longitude_deg,
+        command.altitude_m,
+        command.accuracy_m,
+    )
     return json.dumps(content, separators=(",", ":")).encode("ascii")

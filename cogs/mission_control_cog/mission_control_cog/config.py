@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
+import socket
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from up.config import ConfigFile, key, section
+from up.config import ConfigFile, items, key, section
+from up.fields import Constraint
 from up.protocols.encrypted_stream import is_available
 from up.system.addresses import is_wildcard
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
+_INTERFACE = re.compile(r"[A-Za-z0-9_.@-]{1,15}", re.ASCII)
 _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
 
 
@@ -39,8 +42,28 @@ class RemoteServerConfig:
         "Empty: plain.",
         max_length=4096,
     )
+    interfaces: tuple[str, ...] = items(
+        Constraint(str, max_length=15),
+        "Network interfaces that may carry the link, the best first, such as [wlan0, usb0]: when "
+        "one is silent, the link moves to another. Linux only. Empty: the system chooses.",
+        max_length=4,
+    )
+    return_after_s: float = key(
+        10.0,
+        "How long a better interface must answer before the link returns to it.",
+        unit="s",
+        minimum=1.0,
+        maximum=3600.0,
+    )
 
     def problems(self) -> Iterator[tuple[str, str]]:
+        if self.interfaces and not hasattr(socket, "SO_BINDTODEVICE"):
+            yield "interfaces", "needs Linux"
+        for name in self.interfaces:
+            if not _INTERFACE.fullmatch(name):
+                yield "interfaces", f"{name!r} is not the name of an interface"
+        if len(set(self.interfaces)) < len(self.interfaces):
+            yield "interfaces", "names one interface twice"
         if not _HOST.fullmatch(self.url):
             yield "url", "must be a host name or an address alone, without http:// and port"
 
@@ -138,6 +161,8 @@ class MissionControlConfig:
                 yield "secrecy", text, "package_missing"
             if {self.remote_server.security, self.listener.security} & {"off", "accept"}:
                 yield "secrecy", "require needs security: require, or auto, on every link"
+        if self.remote_server.interfaces and not self.hello:
+            yield "hello", "interfaces need a proxy that resumes the link by its token"
         if self.audit_log and not Path(self.audit_log).is_absolute():
             yield "audit_log", "must be an absolute path"
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):

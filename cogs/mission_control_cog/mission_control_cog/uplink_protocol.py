@@ -37,8 +37,8 @@ class UplinkProtocol(GeneralMessageProtocol):
 
     ``on_token`` gets the token for the next hello, empty after a refusal: the name may belong to
     another aircraft. ``on_ready`` gets the link when messages can be sent. ``lost_code`` is the
-    code of the loss. A link with hello sends an empty line in every second without other data,
-    more rarely without any ground. ``watchers`` stays None at a proxy that does not tell.
+    code of the loss. A link with hello sends an empty line after ``heartbeat_s`` without other
+    data, more rarely without any ground. ``watchers`` stays None at a proxy that does not tell.
     """
 
     def __init__(
@@ -48,6 +48,7 @@ class UplinkProtocol(GeneralMessageProtocol):
         *,
         on_token: Callable[[str], object],
         on_ready: Callable[[UplinkProtocol], object],
+        heartbeat_s: float = HEARTBEAT_S,
         **callbacks: Any,
     ) -> None:
         super().__init__(clock, on_connected=self._begin, **callbacks)
@@ -58,6 +59,7 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._hello = hello
         self._on_token = on_token
         self._on_ready = on_ready
+        self._heartbeat_s = heartbeat_s
         self._answer = b""
         self._sent_s = 0.0
         self._pulse: Timer | None = None
@@ -191,7 +193,7 @@ class UplinkProtocol(GeneralMessageProtocol):
         self.is_ready = True
         self._sent_s = self._clock.seconds()
         if self._hello is not None:
-            self._pulse = self._clock.callLater(HEARTBEAT_S, self._beat)
+            self._pulse = self._clock.callLater(self._heartbeat_s, self._beat)
         self._on_ready(self)
 
     def _beat(self) -> None:
@@ -200,7 +202,7 @@ class UplinkProtocol(GeneralMessageProtocol):
             # A relay on the way may acknowledge what it cannot pass on.
             self._give_up("proxy_silent", "the proxy is silent")
             return
-        period_s = UNWATCHED_HEARTBEAT_S if self.is_unwatched else HEARTBEAT_S
+        period_s = UNWATCHED_HEARTBEAT_S if self.is_unwatched else self._heartbeat_s
         silence_s = self._clock.seconds() - self._sent_s
         if silence_s >= period_s:
             self.send(b"\n")

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from twisted.internet.error import CannotListenError
 
 from up.cli.option_parser import EXIT_OK
+from up.system.figures import text_of
+from up.system.metrics_page import serve_metrics
 from up.tls.files import TLSFiles
 from up.tls.protocol import TLSServerFactory
 from up_ground.catalogue import Catalogue, catalogue_message
@@ -18,6 +20,7 @@ from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_hub import ClientHub
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
+from up_ground.web.metrics import figures_of
 from up_ground.web.page_link import link_resource
 from up_ground.web.sign_in import SignIn
 from up_ground.web.site import GroundResource, make_site
@@ -48,6 +51,7 @@ class Server(OneShotTask):
         folder: Path = STATIC,
         https: TLSFiles | None = None,
         key_place: str = "",
+        metrics_port: int | None = None,
     ) -> None:
         super().__init__()
         told = None
@@ -70,16 +74,21 @@ class Server(OneShotTask):
         if https is not None:
             self._factory = TLSServerFactory(reactor, https, self._factory, clients=False)
         self._port: Any = None
+        self._metrics_port = metrics_port
+        self._metrics: Any = None
 
     def start(self) -> None:
         """Open the port, print the page's address, and begin to connect."""
         listen = self._listen
         try:
+            if self._metrics_port is not None:
+                self._metrics = serve_metrics(self._reactor, self._metrics_port, self._figures)
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
-            address = authority(listen.host or "0.0.0.0", listen.port)
-            text = f"cannot open {address}: {reason} (--listen ADDRESS:PORT selects another)"
+            address = authority(error.interface or "0.0.0.0", error.port)
+            options = "--listen ADDRESS:PORT and --metrics PORT select others"
+            text = f"cannot open {address}: {reason} ({options})"
             self.fail(text, "listen_failed", EXIT_NO_ANSWER, address=address)
             return
         self._print_addresses(self._port.getHost().port)
@@ -94,6 +103,8 @@ class Server(OneShotTask):
     async def stop(self) -> None:
         """Close the port, the pages' links and the aircraft's."""
         port, self._port = self._port, None
+        if self._metrics is not None:
+            await self._metrics.stopListening()
         if port is None:
             return
         await self.pages.stop()
@@ -103,6 +114,9 @@ class Server(OneShotTask):
             await aircraft.stop()
         await port.stopListening()
 
+    def _figures(self) -> str:
+        return text_of(figures_of(self.pages))
+
     def _print_addresses(self, port: int) -> None:
         for aircraft in self.pages.fleet.values():
             self.echo(f"  {aircraft.summary}", "aircraft", name=aircraft.name)
@@ -110,6 +124,9 @@ class Server(OneShotTask):
         self.echo(f"open {urls[0]}", "page_open", url=urls[0])
         for url in urls[1:]:
             self.echo(f"  or {url}", "page_address", url=url)
+        if self._metrics is not None:
+            url = f"http://127.0.0.1:{self._metrics.getHost().port}/metrics"
+            self.echo(f"metrics: {url}", "metrics_open", url=url)
         if self._key_place:
             text = f"a page signs in with {self._key_place}; without it a page only watches"
             self.echo(text, "page_key")

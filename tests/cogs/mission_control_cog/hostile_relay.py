@@ -80,8 +80,8 @@ class Relay:
 class Ground:
     """A ground link that keeps what it accepts."""
 
-    def __init__(self, folder, port, pairing, aircraft="default", tls=None):
-        settings = Settings("127.0.0.1", port, aircraft, Seat.COMMAND, pairing=pairing, tls=tls)
+    def __init__(self, folder, port, pairing, aircraft="default", tls=None, host="127.0.0.1"):
+        settings = Settings(host, port, aircraft, Seat.COMMAND, pairing=pairing, tls=tls)
         self.link = GroundLink(reactor, settings, self, TokenStore(folder / "state", settings))
         self.status = self.link.status
         self.telemetry, self.messages, self.frames = Telemetry(), [], 0

@@ -112,6 +112,8 @@ class MissionControlProvider(BaseMissionControlProvider):
                 on_lost=self._on_lost,
                 backoff=Backoff(self.context.random.random),
                 tls=TLSFiles(self.context.config_folder / server.tls) if server.tls else None,
+                interfaces=server.interfaces,
+                return_after_s=server.return_after_s,
             )
 
     def add_outlet(self, outlet: Outlet, link: str) -> None:
@@ -158,6 +160,7 @@ class MissionControlProvider(BaseMissionControlProvider):
         rate = budget.mb_per_hour
         return {
             "grounds": None if self._uplink is None else self._uplink.grounds,
+            "path": None if self._uplink is None else self._uplink.path,
             "mb_per_hour": round(rate, 2),
             "mb": round(budget.mb, 3),
             "mb_in_an_hour": round(budget.mb + rate, 1),

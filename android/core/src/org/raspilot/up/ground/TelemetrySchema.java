@@ -272,6 +272,9 @@ public final class TelemetrySchema {
         RULES.add(new TelemetryRule("event", "link", "code", "role", "level", "warning",
                 "text", "the ground's role is {value} (was {before})", "path", "ground.role",
                 "type", "text"));
+        RULES.add(new TelemetryRule("event", "link", "code", "uplink_path", "level", "warning",
+                "text", "the link to the proxy uses {value} (was {before})", "path", "uplink.path",
+                "type", "text"));
         RULES.add(new TelemetryRule("path", "source.orientation", "type", "text", "event", "source",
                 "level", "warning", "code", "source_changed",
                 "text", "orientation comes from {value} (was {before})"));

@@ -1,9 +1,8 @@
-"""Serves the metrics page to the local machine."""
+"""Serves a page of metrics to the local machine, in the text format of Prometheus."""
 
 from collections.abc import Callable
 from typing import Any
 
-from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import connectionDone
 from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
 from twisted.python.failure import Failure
@@ -15,10 +14,9 @@ from twisted.web.server import Site
 from up.system.clock import Clock, cancel
 from up.system.http_host import names_this_machine
 from up.system.lingering_connection import LingeringConnection
-from up_proxy.listener import cannot_listen
-from up_proxy.metrics import CONTENT_TYPE
 
 HOST = "127.0.0.1"
+CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
 MAX_CONNECTIONS = 16
 MAX_REQUEST_BYTES = 8192
 CONNECTION_LIMIT_S = 5.0
@@ -112,9 +110,6 @@ class MetricsFactory(WrappingFactory):
 def serve_metrics(reactor: Any, port: int, page: Callable[[], str]) -> Any:
     """Serve `page()` at http://127.0.0.1:port/metrics and return the listening port.
 
-    Raises StartError.
+    Raises CannotListenError.
     """
-    try:
-        return reactor.listenTCP(port, MetricsFactory(reactor, page), interface=HOST)
-    except CannotListenError as error:
-        raise cannot_listen("metrics port", port, error.socketError) from None
+    return reactor.listenTCP(port, MetricsFactory(reactor, page), interface=HOST)

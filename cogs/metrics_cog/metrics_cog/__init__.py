@@ -1,0 +1,1 @@
+"""Telemetry and counters of the daemon for Prometheus."""
