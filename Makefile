@@ -77,7 +77,7 @@ test-browser: $(VENV)/.dev-ready $(WEB)
 
 check: check-python check-phone
 
-check-phone: | $(VENV)/.dev-ready
+check-phone:
 	@android/tools/where_ready check
 
 check-python: $(VENV)/.dev-ready

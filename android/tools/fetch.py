@@ -85,22 +85,24 @@ def fetch(folder: Path, wanted: list[str], listed: Path, options: list[str]) -> 
     for group in wanted:
         if group not in known:
             raise FetchError(f"{listed.name} has no group {group!r}: it has {', '.join(known)}")
-        missing = [jar for jar in known[group] if not (folder / jar.name).is_file()]
-        if missing:
-            print(f"fetch {group}: {len(missing)} jars by Maven", flush=True)
-            # Maven's files appear complete or not at all.
-            with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as work:
-                maven(group, missing, Path(work), options)
-                for jar in missing:
-                    if not (Path(work) / jar.name).is_file():
-                        raise FetchError(f"Maven did not bring {jar.name}")
-                    check(Path(work) / jar.name, jar, listed.name)
-                    (Path(work) / jar.name).replace(folder / jar.name)
-        for jar in known[group]:
-            check(folder / jar.name, jar, listed.name)
+    jars = list(dict.fromkeys(jar for group in wanted for jar in known[group]))
+    missing = [jar for jar in jars if not (folder / jar.name).is_file()]
+    if missing:
+        lacking = " ".join(group for group in wanted if not set(missing).isdisjoint(known[group]))
+        print(f"fetch {lacking}: {len(missing)} jars by Maven", flush=True)
+        # Maven's files appear complete or not at all.
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as work:
+            maven(lacking, missing, Path(work), options)
+            for jar in missing:
+                if not (Path(work) / jar.name).is_file():
+                    raise FetchError(f"Maven did not bring {jar.name}")
+                check(Path(work) / jar.name, jar, listed.name)
+                (Path(work) / jar.name).replace(folder / jar.name)
+    for jar in jars:
+        check(folder / jar.name, jar, listed.name)
 
 
-def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None:
+def maven(lacking: str, jars: list[Jar], folder: Path, options: list[str]) -> None:
     """Let Maven copy jars into ``folder``; print their names during that."""
     program = shutil.which("mvn")
     if program is None:
@@ -140,7 +142,7 @@ def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None
             last = line.strip() or last
     if running.returncode != 0:
         said = reason(errors) or last or f"exit status {running.returncode}"
-        raise FetchError(f"Maven could not fetch the jars of {group}: {said} (fetch_failed)")
+        raise FetchError(f"Maven could not fetch the jars of {lacking}: {said} (fetch_failed)")
 
 
 def element(**texts: str) -> str:
