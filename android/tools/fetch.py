@@ -21,7 +21,7 @@ LIST = Path(__file__).resolve().parent.parent / "jars.list"
 PLUGIN = "org.apache.maven.plugins:maven-dependency-plugin:3.6.1"
 PACKAGES = "maven default-jdk-headless"
 LONGEST_REASON = 300
-# So short a run gains nothing from the second compiler of the JVM.
+# A run this short gains nothing from the second compiler of the JVM.
 QUICK = {"MAVEN_OPTS": "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"}
 PROGRESS = re.compile(r"(Downloading|Downloaded) from \S+ \S+/([^/\s]+\.jar)(?: \(([^)]+)\))?")
 POM = """<project xmlns="http://maven.apache.org/POM/4.0.0">
