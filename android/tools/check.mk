@@ -48,7 +48,7 @@ check: $(BUILD)/.guarded
 
 $(BUILD)/.spotted: $(SPOTTED) tools/spotbugs.xml $(JARS)/.spotbugs
 	@echo 'look for bugs'
-	@java -XX:+UseSerialGC -Dslf4j.internal.verbosity=ERROR -cp '$(SPOTBUGS_PATH)' \
+	@$(JVM) -Dslf4j.internal.verbosity=ERROR -cp '$(SPOTBUGS_PATH)' \
 		edu.umd.cs.findbugs.FindBugs2 -effort:max -medium -longBugCodes -exitcode \
 		-exclude tools/spotbugs.xml -auxclasspath '$(SPOTBUGS_KNOWN)' $(SPOTTED)
 	@echo 'SpotBugs finds nothing'

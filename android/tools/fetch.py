@@ -8,6 +8,7 @@ differs is removed. ``--offline`` as Maven's own; ``--list`` only prints the fil
 from __future__ import annotations
 
 import hashlib
+import os
 import re
 import shutil
 import subprocess
@@ -20,6 +21,8 @@ LIST = Path(__file__).resolve().parent.parent / "jars.list"
 PLUGIN = "org.apache.maven.plugins:maven-dependency-plugin:3.6.1"
 PACKAGES = "maven default-jdk-headless"
 LONGEST_REASON = 300
+# A run this short gains nothing from the second compiler of the JVM.
+QUICK = {"MAVEN_OPTS": "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"}
 PROGRESS = re.compile(r"(Downloading|Downloaded) from \S+ \S+/([^/\s]+\.jar)(?: \(([^)]+)\))?")
 POM = """<project xmlns="http://maven.apache.org/POM/4.0.0">
 <modelVersion>4.0.0</modelVersion>
@@ -85,22 +88,24 @@ def fetch(folder: Path, wanted: list[str], listed: Path, options: list[str]) -> 
     for group in wanted:
         if group not in known:
             raise FetchError(f"{listed.name} has no group {group!r}: it has {', '.join(known)}")
-        missing = [jar for jar in known[group] if not (folder / jar.name).is_file()]
-        if missing:
-            print(f"fetch {group}: {len(missing)} jars by Maven", flush=True)
-            # Maven's files appear complete or not at all.
-            with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as work:
-                maven(group, missing, Path(work), options)
-                for jar in missing:
-                    if not (Path(work) / jar.name).is_file():
-                        raise FetchError(f"Maven did not bring {jar.name}")
-                    check(Path(work) / jar.name, jar, listed.name)
-                    (Path(work) / jar.name).replace(folder / jar.name)
-        for jar in known[group]:
-            check(folder / jar.name, jar, listed.name)
+    jars = list(dict.fromkeys(jar for group in wanted for jar in known[group]))
+    missing = [jar for jar in jars if not (folder / jar.name).is_file()]
+    if missing:
+        lacking = " ".join(group for group in wanted if not set(missing).isdisjoint(known[group]))
+        print(f"fetch {lacking}: {len(missing)} jars by Maven", flush=True)
+        # Maven's files appear complete or not at all.
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as work:
+            maven(lacking, missing, Path(work), options)
+            for jar in missing:
+                if not (Path(work) / jar.name).is_file():
+                    raise FetchError(f"Maven did not bring {jar.name}")
+                check(Path(work) / jar.name, jar, listed.name)
+                (Path(work) / jar.name).replace(folder / jar.name)
+    for jar in jars:
+        check(folder / jar.name, jar, listed.name)
 
 
-def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None:
+def maven(lacking: str, jars: list[Jar], folder: Path, options: list[str]) -> None:
     """Let Maven copy jars into ``folder``; print their names during that."""
     program = shutil.which("mvn")
     if program is None:
@@ -122,7 +127,11 @@ def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None
     last = ""
     told = False
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env=QUICK | os.environ,
     ) as running:
         assert running.stdout is not None
         for line in running.stdout:
@@ -140,7 +149,7 @@ def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None
             last = line.strip() or last
     if running.returncode != 0:
         said = reason(errors) or last or f"exit status {running.returncode}"
-        raise FetchError(f"Maven could not fetch the jars of {group}: {said} (fetch_failed)")
+        raise FetchError(f"Maven could not fetch the jars of {lacking}: {said} (fetch_failed)")
 
 
 def element(**texts: str) -> str:

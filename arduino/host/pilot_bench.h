@@ -27,6 +27,7 @@ class ReceiverLines {
 
   void edge(uint64_t tick, uint8_t channel, bool is_high, bool is_late = false) {
     edges_.push_back(LineEdge{tick, channel, is_high, is_late});
+    is_sorted_ = false;
   }
   void pulse(double at_us, uint8_t channel, double width_us, bool is_late = false) {
     edge(static_cast<uint64_t>(at_us * 2 + 0.5), channel, true, is_late);
@@ -34,22 +35,25 @@ class ReceiverLines {
   }
   /** Hands over the edges before `now_us` since the bench began, then lets the reader check. */
   void slot(uint64_t now_us) {
-    std::stable_sort(edges_.begin(), edges_.end(),
-                     [](const LineEdge& a, const LineEdge& b) { return a.tick < b.tick; });
+    if (!is_sorted_) {
+      edges_.erase(edges_.begin(), edges_.begin() + static_cast<long>(taken_));
+      std::stable_sort(edges_.begin(), edges_.end(),
+                       [](const LineEdge& a, const LineEdge& b) { return a.tick < b.tick; });
+      taken_ = 0;
+      is_sorted_ = true;
+    }
     const uint32_t clock_us = begin_us_ + static_cast<uint32_t>(now_us);
-    size_t taken = 0;
-    while (taken < edges_.size() && edges_[taken].tick <= now_us * 2) {
-      const uint64_t tick = edges_[taken].tick;
+    while (taken_ < edges_.size() && edges_[taken_].tick <= now_us * 2) {
+      const uint64_t tick = edges_[taken_].tick;
       bool is_late = false;
-      for (; taken < edges_.size() && edges_[taken].tick == tick; ++taken) {
-        const uint8_t bit = static_cast<uint8_t>(1 << edges_[taken].channel);
-        levels = static_cast<uint8_t>(edges_[taken].is_high ? levels | bit : levels & ~bit);
-        is_late = is_late || edges_[taken].is_late;
+      for (; taken_ < edges_.size() && edges_[taken_].tick == tick; ++taken_) {
+        const uint8_t bit = static_cast<uint8_t>(1 << edges_[taken_].channel);
+        levels = static_cast<uint8_t>(edges_[taken_].is_high ? levels | bit : levels & ~bit);
+        is_late = is_late || edges_[taken_].is_late;
       }
       const uint16_t stamp = static_cast<uint16_t>(begin_us_ * 2 + tick);
       reader_.on_edge(stamp, levels, is_late, clock_us);
     }
-    edges_.erase(edges_.begin(), edges_.begin() + static_cast<long>(taken));
     reader_.check(clock_us);
   }
   uint32_t clock_us(uint64_t now_us) const { return begin_us_ + static_cast<uint32_t>(now_us); }
@@ -60,6 +64,8 @@ class ReceiverLines {
   PwmReader& reader_;
   uint32_t begin_us_;
   std::vector<LineEdge> edges_;
+  size_t taken_ = 0;
+  bool is_sorted_ = true;
 };
 
 /** The pilot's side of the aircraft; sticks are us, time is in ms. */

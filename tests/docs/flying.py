@@ -64,9 +64,8 @@ def lines_of(page: str, kind: str) -> list[str]:
 
 def copy_of_the_tree(folder: Path) -> Path:
     """A clone of the paths that the pages touch, after ``make run`` has installed everything."""
-    ignored = shutil.ignore_patterns("__pycache__")
     for name in ("raspilot", "simulator", "cogs"):
-        shutil.copytree(REPOSITORY / name, folder / name, ignore=ignored)
+        shutil.copytree(REPOSITORY / name, folder / name)
     shutil.copy(REPOSITORY / "main.py", folder)
     (folder / "config").mkdir()
     return folder
