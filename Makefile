@@ -23,7 +23,7 @@ ARGS ?=
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test test-browser check check-python check-phone bench pictures format schema schemas clean
+.PHONY: help run scenarios test test-browser compile-tests check check-python check-phone bench pictures format schema schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
@@ -76,6 +76,10 @@ test-browser: $(VENV)/.dev-ready $(WEB)
 	$(PY) -m pytest tests/test_browser.py
 
 check: check-python check-phone
+
+# Else each worker of the tests would compile them; "make test" reports what cannot be collected.
+compile-tests: $(VENV)/.dev-ready
+	-@$(PY) -m pytest --collect-only -q >/dev/null
 
 check-phone:
 	@android/tools/where_ready check
