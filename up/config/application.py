@@ -29,10 +29,10 @@ class ApplicationConfig:
         "the flight (black box). With auto it depends on whether a board answers. The environment "
         "variable UP_MODE takes the same words and comes first.",
     )
-    flight_controller: Literal["arduino", "raspberry"] = key(
+    flight_controller: Literal["arduino", "raspberry", "msp"] = key(
         "arduino",
-        "Where the control loop runs. The Raspberry Pi needs a board that sends the receiver's "
-        "inputs.",
+        "Where the control loop runs: in the Arduino, in the Raspberry Pi with an Arduino that sends "
+        "the receiver's inputs, or in a Betaflight or INAV board (msp), instead of an Arduino.",
         name="flight controller",
     )
     realtime_priority: int = key(
