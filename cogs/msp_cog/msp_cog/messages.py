@@ -6,6 +6,7 @@ Each reader raises ``struct.error`` or ``ValueError`` for a payload that is too 
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from msp_cog.stick_curve import StickCurve
@@ -13,6 +14,7 @@ from msp_cog.stick_curve import StickCurve
 VARIANT, ADVANCED, STATUS, RAW_IMU, SERVO, MOTOR, RC = 2, 94, 150, 102, 103, 104, 105
 RAW_GPS, ATTITUDE, ANALOG, RC_TUNING, BOX_IDS, DEADBAND = 106, 108, 110, 111, 119, 125
 SET_RAW_RC, SET_ARMING_DISABLED = 200, 99
+OF_CURVES = (RC_TUNING, DEADBAND, ADVANCED)
 BETAFLIGHT = b"BTFL"
 BOX_ARM, BOX_ANGLE, BOX_FAILSAFE, BOX_OVERRIDE = 0, 1, 27, 50
 """Permanent ids of the modes (``msp_box.c``)."""
@@ -121,6 +123,22 @@ def read_curves(tuning: bytes, deadband: bytes, advanced: bytes) -> tuple[StickC
     )
 
 
-def pack_sticks(ailerons_us: int, elevator_us: int, throttle_us: int, rudder_us: int) -> bytes:
-    """Return the payload of ``SET_RAW_RC``; its elevator is down above 1500."""
-    return struct.pack("<4H", ailerons_us, 3000 - elevator_us, throttle_us, rudder_us)
+def read_surfaces(payload: bytes) -> tuple[int, int, int]:
+    """Return the servos of ailerons, elevator and rudder of the mixer AIRPLANE, us."""
+    servos = _SERVOS.unpack_from(payload)
+    return servos[3], servos[6], servos[5]
+
+
+def read_motor(payload: bytes) -> int:
+    """Return the pulse of the first motor, us."""
+    return int.from_bytes(payload[:2], "little")
+
+
+def pack_sticks(sticks_us: Sequence[int]) -> bytes:
+    """Return the payload of ``SET_RAW_RC``: ailerons, elevator, throttle, rudder, or the first two.
+
+    The elevator of the board is down above 1500.
+    """
+    ailerons_us, elevator_us, *others = sticks_us
+    values = (ailerons_us, 3000 - elevator_us, *others)
+    return struct.pack(f"<{len(values)}H", *values)

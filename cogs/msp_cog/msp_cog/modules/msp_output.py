@@ -1,0 +1,39 @@
+"""Set-points as sticks of the board."""
+
+from __future__ import annotations
+
+from msp_cog.messages import pack_sticks
+from msp_cog.modules.msp_board import MspBoard
+from up.base_module import BaseModule
+from up.commands.output_command import SetpointCommand
+from up.mode import WITH_BOARD
+from up.needs import needs
+
+CENTRE_US = 1500
+
+
+class MspOutput(BaseModule):
+    """Sends `up.setpoint.set` as `MSP_SET_RAW_RC`, through the curve of the board's ANGLE mode.
+
+    A throttle that the set-point leaves to the pilot is left out, with the rudder. In receiver
+    failsafe nothing is sent: the board's own procedure acts. The board drops a set-point after
+    300 ms, whatever its lifetime.
+    """
+
+    MODES = WITH_BOARD
+
+    board = needs(MspBoard)
+
+    def on_init(self) -> None:
+        self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)
+
+    def on_setpoint(self, command: SetpointCommand) -> None:
+        """Send a set-point while the board's curves are known."""
+        curves = self.board.curves
+        if curves is None or command.is_failsafe:
+            return
+        roll, pitch = curves
+        sticks = [roll.stick_us(command.roll_deg), pitch.stick_us(command.pitch_deg)]
+        if command.throttle_us is not None:
+            sticks += [command.throttle_us, CENTRE_US]
+        self.board.send_sticks(pack_sticks(sticks))
