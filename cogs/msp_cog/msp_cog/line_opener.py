@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import errno
 import ipaddress
-import os
 import socket
 
 from up.protocols.serial_line import SerialLike
 from up.protocols.serial_port import open_serial
 
 SOCKET = "tcp:"
+CONNECT_S = 0.05
 
 
 def socket_problem(port: str) -> str:
     """Return what is wrong with ``tcp:ADDRESS:PORT``; empty: nothing."""
     host, _, number = port.removeprefix(SOCKET).rpartition(":")
     try:
-        address = ipaddress.ip_address(host)
+        address = ipaddress.ip_address(host.strip("[]"))
     except ValueError:
         return f"{port!r} is not tcp:ADDRESS:PORT with a numeric address"
     # MSP has neither keys nor encryption: whoever reaches it moves the servos.
@@ -33,12 +32,11 @@ def open_line(port: str, baud_rate: int) -> int | SerialLike:
     if not port.startswith(SOCKET):
         return open_serial(port, baud_rate)
     host, _, number = port.removeprefix(SOCKET).rpartition(":")
-    line = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
+    try:
+        # On this computer a connection is made or refused at once.
+        line = socket.create_connection((host.strip("[]"), int(number)), CONNECT_S)
+    except OSError as error:
+        raise OSError(f"no board on {port}: {error.strerror or error}") from error
     line.setblocking(False)
     line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    # It connects while the line waits for its first bytes.
-    fault = line.connect_ex((host, int(number)))
-    if fault not in (0, errno.EINPROGRESS):
-        line.close()
-        raise OSError(f"no board on {port}: {os.strerror(fault)}")
     return line

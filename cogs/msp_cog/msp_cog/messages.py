@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from msp_cog.stick_curve import StickCurve
+from up.commands.location_command import LocationCommand
 
 VARIANT, ADVANCED, STATUS, RAW_IMU, SERVO, MOTOR, RC = 2, 94, 150, 102, 103, 104, 105
 RAW_GPS, ATTITUDE, ANALOG, RC_TUNING, BOX_IDS, DEADBAND = 106, 108, 110, 111, 119, 125
@@ -26,13 +27,18 @@ ARMING_DISABLED = (
     " arm_switch"
 ).split()
 """Why the board does not arm, by bit (``runtime_config.h``)."""
+COUNTS_DEG_S = 16.4
+"""``RAW_IMU`` has counts of a gyro with a range of 2000 deg/s."""
+FIX_AGE_MS = 200.0
+"""From the measurement to the answer: the receiver at the board's UART, and the time between two
+requests."""
 _FAILSAFE_BITS = 1 << 1 | 1 << 2
 _ATTITUDE, _RATES = struct.Struct("<3h"), struct.Struct("<6x3h")
 _RC, _ANALOG, _GPS = struct.Struct("<6H"), struct.Struct("<7xH"), struct.Struct("<BB2iHHH")
 _STATUS = struct.Struct("<6xI4xBB")
 _FLAGS = struct.Struct("<BI")
 _TUNING = struct.Struct("<5B6xBBB2x6xB")
-_ANGLE_AT = 21
+_ANGLE_AT = 17
 _SERVOS = struct.Struct("<8H")
 
 
@@ -53,18 +59,6 @@ class Status:
         return [name for bit, name in enumerate(ARMING_DISABLED) if self.arming_disabled >> bit & 1]
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
-    """A fix of the board's receiver, in the units of ``LocationCommand``."""
-
-    satellites: int
-    latitude_deg: float
-    longitude_deg: float
-    altitude_m: float
-    speed_m_s: float
-    course_deg: float
-
-
 def read_status(payload: bytes, box_ids: bytes) -> Status:
     """``box_ids`` is the answer to ``BOX_IDS``: bit n of the flags is its mode n."""
     low, _, more = _STATUS.unpack_from(payload)
@@ -82,9 +76,9 @@ def read_attitude(payload: bytes) -> tuple[float, float, float]:
 
 
 def read_rates(payload: bytes) -> tuple[float, float, float]:
-    """Return the rates of roll, pitch (nose up) and yaw, deg/s."""
+    """Return the rates of roll, pitch (nose up) and yaw (to the right), deg/s."""
     roll, pitch, yaw = _RATES.unpack_from(payload)
-    return float(roll), -float(pitch), -float(yaw)
+    return roll / COUNTS_DEG_S, -pitch / COUNTS_DEG_S, -yaw / COUNTS_DEG_S
 
 
 def read_channels(payload: bytes) -> tuple[int, int, int, int, int, int]:
@@ -102,11 +96,22 @@ def read_voltage(payload: bytes) -> float:
     return float(hundredths) / 100
 
 
-def read_fix(payload: bytes) -> Fix | None:
+def read_fix(payload: bytes) -> LocationCommand | None:
+    """Return the position; None without a fix. Raises WireError for values out of range."""
     has_fix, satellites, latitude, longitude, altitude, speed, course = _GPS.unpack_from(payload)
     if not has_fix:
         return None
-    return Fix(satellites, latitude / 1e7, longitude / 1e7, altitude, speed / 100, course / 10)
+    return LocationCommand.from_data(
+        {
+            "latitude": latitude / 1e7,
+            "longitude": longitude / 1e7,
+            "altitude": altitude,
+            "speed": speed / 100,
+            "bearing": course / 10,
+            "age_ms": FIX_AGE_MS,
+            "satellites": satellites,
+        }
+    )
 
 
 def read_curves(tuning: bytes, deadband: bytes, advanced: bytes) -> tuple[StickCurve, StickCurve]:

@@ -19,7 +19,6 @@ from msp_cog.messages import BOX_ANGLE, BOX_ARM, BOX_OVERRIDE, Status
 from msp_cog.poller import Poller
 from msp_cog.stick_curve import StickCurve
 from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
-from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
@@ -32,6 +31,8 @@ OVERRIDDEN_VALID = 0b110000
 """While set-points act the board reports them as the sticks: only the switches are the pilot's."""
 FOLLOWED_S = 0.3
 """The board drops a set-point after this time (``rx/msp.c``)."""
+SAME_FIX_S = 1.0
+"""An equal answer before is the receiver's last fix, not a new one."""
 _VETO = "msp board"
 _OTHER = "the board is no Betaflight"
 _RATES = "the board's rates_type is not ACTUAL: its stick's curve is not known"
@@ -62,7 +63,9 @@ class MspBoard(BaseBoard):
         self._sequence = 0
         self._rates: tuple[float, float, float] | None = None
         self._is_heard = False
-        self._heard_s = self._sent_s = float("-inf")
+        self._receiver = Origin(self.LINK, Role.SENSOR)
+        self._fix = b""
+        self._fix_s = self._heard_s = self._sent_s = float("-inf")
         self._is_forbidden: bool | None = None
         self._handlers = {
             messages.ATTITUDE: self._on_attitude,
@@ -272,7 +275,10 @@ class MspBoard(BaseBoard):
             self.publish(FlightBatteryCommand(voltage_v))
 
     def _on_gps(self, payload: bytes) -> None:
+        now_s = self._seconds()
+        if payload == self._fix and now_s - self._fix_s < SAME_FIX_S:
+            return
         fix = messages.read_fix(payload)
         if fix is not None:
-            command = LocationCommand.from_data(asdict(fix))
-            self.up.command_executor.execute_command(command, Origin(self.LINK, Role.SENSOR))
+            self._fix, self._fix_s = payload, now_s
+            self.up.command_executor.execute_command(fix, self._receiver)

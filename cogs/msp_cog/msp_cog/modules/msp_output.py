@@ -5,7 +5,9 @@ from __future__ import annotations
 from msp_cog.messages import pack_sticks
 from msp_cog.modules.msp_board import MspBoard
 from up.base_module import BaseModule
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.output_command import SetpointCommand
+from up.commands.refusal import CommandRefusedError
 from up.mode import WITH_BOARD
 from up.needs import needs
 
@@ -25,7 +27,9 @@ class MspOutput(BaseModule):
     board = needs(MspBoard)
 
     def on_init(self) -> None:
-        self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)
+        executor = self.up.command_executor
+        executor.register_command(SetpointCommand, self.on_setpoint)
+        executor.register_command(FlightModeCommand, self.on_flight_mode)
 
     def on_setpoint(self, command: SetpointCommand) -> None:
         """Send a set-point while the board's curves are known."""
@@ -37,3 +41,14 @@ class MspOutput(BaseModule):
         if command.throttle_us is not None:
             sticks += [command.throttle_us, CENTRE_US]
         self.board.send_sticks(pack_sticks(sticks))
+
+    def on_flight_mode(self, _command: FlightModeCommand) -> None:
+        """Accept every mode while the switch lets set-points act: FBW is that without any.
+
+        Otherwise raises CommandRefusedError: the board's switch has the last word.
+        """
+        if not self.board.state.is_auto:
+            raise CommandRefusedError(
+                "the transmitter's switch is not at AUTO (MSP OVERRIDE and ANGLE of the board)",
+                detail="not_at_auto",
+            )
