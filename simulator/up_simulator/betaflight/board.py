@@ -7,6 +7,7 @@ import shutil
 import socket
 import subprocess
 import tempfile
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,7 +30,8 @@ from up_simulator.radio.sticks import Sticks
 
 PROGRAM = "betaflight_SITL"
 SETTINGS = Path(__file__).with_name("settings.txt")
-SETTINGS_LIMIT_S = 30.0
+SETTINGS_LIMIT_S, TRY_S, POLL_S = 30.0, 5.0, 0.02
+TRIES = 6
 FRAME_US = 20_000.0
 _HOST = "127.0.0.1"
 
@@ -53,21 +55,20 @@ class BetaflightBoard:
     def __init__(self, flight: Dynamics, program: str = PROGRAM, seed: int = 1) -> None:
         found = shutil.which(program)
         if found is None:
-            raise BoardUnavailableError(f"{program} is not there: docs/simulator.md says how to build it")
+            raise BoardUnavailableError(
+                f"there is no {program}: cogs/msp_cog/README.md says where it comes from"
+            )
         self._program = str(Path(found).resolve())
         self._flight = flight
-        self._first = flight.state
         self.imu = _Imu(ImuErrors(), seed)
         self.on_ground: Sticks | None = None
         self._sticks = Sticks()
         self._now_us = self._frame_us = 0.0
-        self._pulses: Pulses = NEUTRAL_US
-        self._pulse_us = -math.inf
         self._socket = socket.socket(type=socket.SOCK_DGRAM)
         try:
             self._socket.bind((_HOST, PWM_PORT))
         except OSError as error:
-            raise BoardUnavailableError(f"UDP port {PWM_PORT} is in use: another SITL flies") from error
+            raise BoardUnavailableError(f"UDP port {PWM_PORT} is in use by another flight") from error
         self._socket.setblocking(False)
         self._folder = Path(tempfile.mkdtemp(prefix="betaflight-"))
         self._configure()
@@ -125,7 +126,6 @@ class BetaflightBoard:
 
     def reset(self, cause: ResetCause) -> None:
         self._child.end()
-        self._pulses = NEUTRAL_US
         self._start()
 
     def close(self) -> None:
@@ -141,9 +141,22 @@ class BetaflightBoard:
         subprocess.run(command, cwd=self._folder, timeout=SETTINGS_LIMIT_S, capture_output=True)
 
     def _start(self) -> None:
-        self._child = Child(
-            "betaflight", [self._program], self._folder, work_folder=self._folder
-        )
+        """Start the program until it sends pulses: on a busy computer its control loop may never
+        run."""
+        for _ in range(TRIES):
+            self._pulses, self._pulse_us = NEUTRAL_US, -math.inf
+            self._first = self._flight.state
+            self._child = Child(
+                "betaflight", [self._program], self._folder, work_folder=self._folder
+            )
+            deadline_s = time.monotonic() + TRY_S
+            while time.monotonic() < deadline_s and self._child.poll() is None:
+                self.run_us(0.0)
+                if self._pulse_us >= 0.0:
+                    return
+                time.sleep(POLL_S)
+            self._child.end()
+        raise BoardUnavailableError(f"{self._program} sends no pulses: {self._child.tail()}")
 
     def _send(self, port: int, packet: bytes) -> None:
         self._socket.sendto(packet, (_HOST, port))

@@ -10,8 +10,8 @@ from up_rig.imu import Motion
 from up_simulator.aircraft.flight import FlightState, Servos
 from up_simulator.radio.sticks import Sticks
 
-PWM_PORT, STATE_PORT, RECEIVER_PORT = 9001, 9003, 9004
-LINE = "tcp:127.0.0.1:5761"
+PWM_PORT, STATE_PORT, RECEIVER_PORT, MSP_PORT = 9001, 9003, 9004, 5761
+LINE = f"tcp:127.0.0.1:{MSP_PORT}"
 """Its first UART: what msp.yml has as ``port``."""
 PWM_SIZE = 68
 _STATE, _RECEIVER, _PWM = struct.Struct("<18d"), struct.Struct("<d16H"), struct.Struct("<H2x16f")
