@@ -6,26 +6,31 @@ Each reader raises ``struct.error`` or ``ValueError`` for a payload that is too 
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from msp_cog.stick_curve import StickCurve
 from up.commands.location_command import LocationCommand
 
-VARIANT, ADVANCED, STATUS, RAW_IMU, SERVO, MOTOR, RC = 2, 94, 150, 102, 103, 104, 105
+VARIANT, VERSION, RECEIVER_MAP, ADVANCED, STATUS = 2, 3, 64, 94, 150
+RAW_IMU, SERVO, MOTOR, RC = 102, 103, 104, 105
 RAW_GPS, ATTITUDE, ANALOG, RC_TUNING, BOX_IDS, DEADBAND = 106, 108, 110, 111, 119, 125
 SET_RAW_RC, SET_ARMING_DISABLED = 200, 99
-OF_CURVES = (RC_TUNING, DEADBAND, ADVANCED)
-BETAFLIGHT = b"BTFL"
+SETTINGS = (VARIANT, VERSION, RECEIVER_MAP, RC_TUNING, DEADBAND, ADVANCED)
+"""What decides whether set-points may be sent, and how."""
+OLDEST_VERSION = bytes((26, 6))
+"""2026.6: before, a board that gets no set-points any more holds the last one for ever."""
+AETR = bytes((0, 1, 3, 2))
 BOX_ARM, BOX_ANGLE, BOX_FAILSAFE, BOX_OVERRIDE = 0, 1, 27, 50
 """Permanent ids of the modes (``msp_box.c``)."""
 ARMING_DISABLED = (
-    "no_gyro failsafe receiver_failsafe not_disarmed failsafe_switch runaway_takeoff crash_detected"
-    " throttle_not_low not_level boot_grace_time no_prearm load calibrating cli cms_menu bst msp"
-    " paralyze gps_rescue gps_rescue_switch dshot_telemetry reboot_required dshot_bitbang"
-    " accelerometer_not_calibrated motor_protocol crash_flip altitude_hold position_hold autopilot"
-    " arm_switch"
-).split()
+    "no_gyro", "failsafe", "receiver_failsafe", "not_disarmed", "failsafe_switch",
+    "runaway_takeoff", "crash_detected", "throttle_not_low", "not_level", "boot_grace_time",
+    "no_prearm", "load", "calibrating", "cli", "cms_menu", "bst", "msp", "paralyze",
+    "gps_rescue", "gps_rescue_switch", "dshot_telemetry", "reboot_required", "dshot_bitbang",
+    "accelerometer_not_calibrated", "motor_protocol", "crash_flip", "altitude_hold",
+    "position_hold", "autopilot", "arm_switch",
+)  # fmt: skip
 """Why the board does not arm, by bit (``runtime_config.h``)."""
 COUNTS_DEG_S = 16.4
 """``RAW_IMU`` has counts of a gyro with a range of 2000 deg/s."""
@@ -40,6 +45,10 @@ _FLAGS = struct.Struct("<BI")
 _TUNING = struct.Struct("<5B6xBBB2x6xB")
 _ANGLE_AT = 17
 _SERVOS = struct.Struct("<8H")
+
+
+class UnfitError(Exception):
+    """Why set-points must not be sent to this board: the end of a sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,13 +123,23 @@ def read_fix(payload: bytes) -> LocationCommand | None:
     )
 
 
-def read_curves(tuning: bytes, deadband: bytes, advanced: bytes) -> tuple[StickCurve, StickCurve]:
-    """Return the curves of roll and pitch in ANGLE; ValueError if the rates are of another type."""
+def read_curves(settings: Mapping[int, bytes]) -> tuple[StickCurve, StickCurve]:
+    """Return the curves of roll and pitch in ANGLE, from the answers to ``SETTINGS``.
+
+    Raises UnfitError if set-points would not act as they are meant.
+    """
+    variant, version, receiver_map, tuning, deadband, advanced = map(settings.__getitem__, SETTINGS)
+    if variant != b"BTFL":
+        raise UnfitError("it is no Betaflight")
+    if version[:2] < OLDEST_VERSION:
+        raise UnfitError("before version 2026.6 it holds the last set-point for ever")
+    if receiver_map[:4] != AETR:
+        raise UnfitError("its channel map is not AETR")
     roll_rate, roll_expo, roll_max, pitch_max, _, _, pitch_rate, pitch_expo, kind = (
         _TUNING.unpack_from(tuning)
     )
     if kind != StickCurve.ACTUAL_RATES:
-        raise ValueError(f"rates_type {kind}")
+        raise UnfitError("its rates_type is not ACTUAL: its stick's curve is not known")
     limit_deg, dead_us = advanced[_ANGLE_AT], deadband[0]
     return (
         StickCurve(limit_deg, roll_rate, roll_max, roll_expo, dead_us),

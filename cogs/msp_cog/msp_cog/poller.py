@@ -9,13 +9,7 @@ from msp_cog import messages
 EVERY_TICK = (messages.RC, messages.RAW_IMU, messages.ATTITUDE)
 SELDOM = (messages.STATUS, messages.SERVO, messages.MOTOR, messages.RAW_GPS, messages.ANALOG)
 """One after the other, one a tick."""
-SETTINGS = (
-    messages.VARIANT,
-    messages.BOX_IDS,
-    messages.DEADBAND,
-    messages.ADVANCED,
-    messages.RC_TUNING,
-)
+SETTINGS = (messages.BOX_IDS, *messages.SETTINGS)
 SETTINGS_TICKS = 50
 """A switch may select other rates in flight."""
 MAX_WAITING_TICKS = 3
@@ -26,6 +20,7 @@ class Poller:
 
     def __init__(self) -> None:
         self.skipped = 0
+        self._answered = 0
         self.reset()
 
     def reset(self) -> None:
@@ -33,11 +28,13 @@ class Poller:
         self._tick = 0
         self._owed = 0
 
-    def on_answers(self, count: int) -> None:
-        self._owed = max(0, self._owed - count)
+    def on_answers(self, total: int) -> None:
+        """Take the number of all answers until now."""
+        self._owed = max(0, self._owed - (total - self._answered))
+        self._answered = total
 
-    def on_silence(self) -> None:
-        """The answers that are missing will not come."""
+    def forget(self) -> None:
+        """Expect no answer that is still missing."""
         self._owed = 0
 
     def due(self) -> Sequence[int]:

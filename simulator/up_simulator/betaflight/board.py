@@ -64,15 +64,23 @@ class BetaflightBoard:
         self.on_ground: Sticks | None = None
         self._sticks = Sticks()
         self._now_us = self._frame_us = 0.0
+        self._first = flight.state
+        self._pulses: Pulses = NEUTRAL_US
+        self._pulse_us = -math.inf
+        self._child: Child | None = None
         self._socket = socket.socket(type=socket.SOCK_DGRAM)
-        try:
-            self._socket.bind((_HOST, PWM_PORT))
-        except OSError as error:
-            raise BoardUnavailableError(f"UDP port {PWM_PORT} is in use by another flight") from error
         self._socket.setblocking(False)
         self._folder = Path(tempfile.mkdtemp(prefix="betaflight-"))
-        self._configure()
-        self._start()
+        try:
+            self._socket.bind((_HOST, PWM_PORT))
+            self._configure()
+            self._start()
+        except BaseException as error:
+            self.close()
+            if isinstance(error, OSError | subprocess.SubprocessError):
+                text = f"{program}, to which UDP port {PWM_PORT} belongs: {error}"
+                raise BoardUnavailableError(text) from error
+            raise
 
     @property
     def now_us(self) -> float:
@@ -125,38 +133,43 @@ class BetaflightBoard:
         """Drop the data: the line of this board is its TCP port."""
 
     def reset(self, cause: ResetCause) -> None:
-        self._child.end()
+        self._end()
         self._start()
 
     def close(self) -> None:
         """End the program, and forget its settings."""
-        if self._child is not None:
-            self._child.end()
+        self._end()
         self._socket.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _configure(self) -> None:
         """Let it save the settings, which ends it."""
         command = [self._program, "--config", str(SETTINGS)]
-        subprocess.run(command, cwd=self._folder, timeout=SETTINGS_LIMIT_S, capture_output=True)
+        subprocess.run(
+            command, cwd=self._folder, timeout=SETTINGS_LIMIT_S, capture_output=True, check=True
+        )
 
     def _start(self) -> None:
-        """Start the program until it sends pulses: on a busy computer its control loop may never
-        run."""
+        """Start it until it sends pulses: on a busy computer its control loop may never run."""
         for _ in range(TRIES):
             self._pulses, self._pulse_us = NEUTRAL_US, -math.inf
             self._first = self._flight.state
-            self._child = Child(
+            self._child = child = Child(
                 "betaflight", [self._program], self._folder, work_folder=self._folder
             )
             deadline_s = time.monotonic() + TRY_S
-            while time.monotonic() < deadline_s and self._child.poll() is None:
+            while time.monotonic() < deadline_s and child.poll() is None:
                 self.run_us(0.0)
                 if self._pulse_us >= 0.0:
                     return
                 time.sleep(POLL_S)
+            self._end()
+        raise BoardUnavailableError(f"{self._program} sends no pulses; its log: {child.tail()}")
+
+    def _end(self) -> None:
+        if self._child is not None:
             self._child.end()
-        raise BoardUnavailableError(f"{self._program} sends no pulses: {self._child.tail()}")
+            self._child = None
 
     def _send(self, port: int, packet: bytes) -> None:
         self._socket.sendto(packet, (_HOST, port))

@@ -30,8 +30,8 @@ class Child:
     Its log is appended to ``<name>.log`` in ``folder``, as JSON lines if it is a program of the
     project; ``<name>.pid`` there has its process number if the program writes one. On Linux it
     gets ``death_signal`` when we die without ending it. ``in_foreground`` leaves it the terminal;
-    its output is not kept; it works in ``work_folder``. With ``is_piped`` its standard input and output are ``input`` and
-    ``output``, and only its error output is kept.
+    its output is not kept. With ``is_piped`` its standard input and output are ``input`` and
+    ``output``, and only its error output is kept. It runs in ``work_folder``, if there is one.
     """
 
     def __init__(

@@ -25,8 +25,9 @@ class Flown:
         self.clock, self.logged, self.line = Clock(), [], PtyLine()
         self.flight = FlightDynamics(load_airframe("glider"), Start(**start), may_land=True)
         radio = ScriptedRadio(read_sticks(script))
+        world = World(self.flight, DirectBoard())
         self.aircraft = FirmwareAircraft(
-            self.flight, World(self.flight, DirectBoard()), self.line, radio, self.clock, "script", self.log,
+            self.flight, world, self.line, radio, self.clock, "script", self.log,
             lambda: "ACRO, a script had the sticks",
         )  # fmt: skip
 

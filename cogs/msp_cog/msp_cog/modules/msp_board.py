@@ -31,11 +31,11 @@ OVERRIDDEN_VALID = 0b110000
 """While set-points act the board reports them as the sticks: only the switches are the pilot's."""
 FOLLOWED_S = 0.3
 """The board drops a set-point after this time (``rx/msp.c``)."""
+LOST_S = 0.1
+"""After this silence missing answers are lost."""
 SAME_FIX_S = 1.0
 """An equal answer before is the receiver's last fix, not a new one."""
 _VETO = "msp board"
-_OTHER = "the board is no Betaflight"
-_RATES = "the board's rates_type is not ACTUAL: its stick's curve is not known"
 
 
 class MspBoard(BaseBoard):
@@ -137,10 +137,11 @@ class MspBoard(BaseBoard):
     def on_bytes(self, data: bytes) -> None:
         """Take bytes of the board."""
         replies = self._decoder.feed(data)
+        counters = self._decoder.counters
+        self._poller.on_answers(counters.frames + counters.refused)
         if not replies:
             return
         self._heard_s = self._seconds()
-        self._poller.on_answers(len(replies))
         if not self._is_heard:
             self._is_heard = True
             self.report_heard()
@@ -157,13 +158,14 @@ class MspBoard(BaseBoard):
     def _tick(self) -> None:
         if not self._line.is_open:
             return
-        if self._is_heard and self._seconds() - self._heard_s > self.config.silence_s:
+        silence_s = self._seconds() - self._heard_s
+        if self._is_heard and silence_s > self.config.silence_s:
             self._on_silence()
+        if silence_s > LOST_S:
+            self._poller.forget()
         requests = b"".join(encode(each) for each in self._poller.due())
         if requests:
             self._line.write(requests)
-        elif not self._is_heard:
-            self._poller.on_silence()
 
     def _on_opened(self) -> None:
         self.log.info("opened {port}", port=self.config.port, code="port_opened")
@@ -187,19 +189,13 @@ class MspBoard(BaseBoard):
 
     def _on_setting(self, number: int, payload: bytes) -> None:
         self._known[number] = payload
-        variant = self._known.get(messages.VARIANT)
-        if variant is not None and variant != messages.BETAFLIGHT:
-            self.curves = None
-            self.up.vetoes.set(_VETO, _OTHER)
-            return
-        wanted = [self._known.get(each) for each in messages.OF_CURVES]
-        if None in wanted:
+        if number not in messages.SETTINGS or not self._known.keys() >= set(messages.SETTINGS):
             return
         try:
-            self.curves = messages.read_curves(*(each or b"" for each in wanted))
-        except ValueError:
+            self.curves = messages.read_curves(self._known)
+        except messages.UnfitError as error:
             self.curves = None
-            self.up.vetoes.set(_VETO, _RATES)
+            self.up.vetoes.set(_VETO, f"{self.TITLE} gets no set-points: {error}")
         else:
             self.up.vetoes.clear(_VETO)
 
@@ -228,7 +224,8 @@ class MspBoard(BaseBoard):
         status = self.status
         if status is None:
             return
-        valid = OVERRIDDEN_VALID if BOX_OVERRIDE in status.boxes else ALL_VALID
+        is_overridden = BOX_OVERRIDE in status.boxes and self._is_followed
+        valid = OVERRIDDEN_VALID if is_overridden else ALL_VALID
         channels = messages.read_channels(payload)
         self.publish(RXCommand(*channels, 0 if status.is_failsafe else valid))
 
@@ -247,12 +244,16 @@ class MspBoard(BaseBoard):
         )  # fmt: skip
         self._forbid(bool(self.up.vetoes.own), is_armed)
 
+    @property
+    def _is_followed(self) -> bool:
+        since_s: float = self._seconds() - self._sent_s
+        return since_s <= FOLLOWED_S
+
     def _is_auto(self, status: Status) -> bool:
-        return {BOX_OVERRIDE, BOX_ANGLE} <= status.boxes and self.curves is not None
+        return status.boxes >= {BOX_OVERRIDE, BOX_ANGLE} and self.curves is not None
 
     def _flight_mode(self, status: Status) -> str:
-        is_followed = self._seconds() - self._sent_s <= FOLLOWED_S
-        if self._is_auto(status) and is_followed and not status.is_failsafe:
+        if self._is_auto(status) and self._is_followed and not status.is_failsafe:
             return "SETPOINT"
         return "FBW" if BOX_ANGLE in status.boxes else "RATE"
 

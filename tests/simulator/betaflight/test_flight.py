@@ -1,0 +1,168 @@
+"""Raspilot flies through a Betaflight board: the real SITL, JSBSim, the real daemon, sockets."""
+
+import json
+import socket
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.simulator.program import Program
+from tests.support.tools import need_peer
+from tests.support.waiting import until
+from up_simulator.aircraft import load_airframe
+from up_simulator.betaflight.packets import LINE
+from up_simulator.demo.config import write_config
+from up_simulator.harness.ports import choose_ports
+from up_simulator.harness.programs import RealRaspilot
+from up_simulator.radio.rc_override import RadioLink
+from up_simulator.radio.remote_messages import write_sticks
+from up_simulator.radio.sticks import SWITCH_US, RadioError, Sticks
+
+AUTO = Sticks(throttle=1550, aux1=SWITCH_US["AUTO"], aux2=2000)
+FBW = replace(AUTO, aux1=SWITCH_US["FBW"])
+
+
+class Flight:
+    """The aircraft with its radio, the daemon, and the ground at its listener."""
+
+    def __init__(self, folder, aircraft):
+        self.config = folder / "config"
+        write_config(
+            self.config,
+            Path("none"),
+            choose_ports(True),
+            controller="msp",
+            airframe=load_airframe("glider"),
+            is_at_start=False,
+        )
+        (self.config / "msp.yml").write_text(f"port: {LINE}\n")
+        (self.config / "mission_control.yml").write_text(
+            "role: pilot\nlistener: {port: 0, address: 127.0.0.1}\n"
+        )
+        self.aircraft = aircraft
+        self.radio = RadioLink(folder / "radio")
+        self.daemon = RealRaspilot(self.config, folder)
+        self.daemon.start()
+        port = int(self.daemon.wait_for("port_open", name="ground").fields["port"])
+        self.ground = socket.create_connection(("127.0.0.1", port))
+        self.ground.setblocking(False)
+        self.sticks, self.frame, self.answers, self.sent, self._unread = AUTO, {}, {}, 0, b""
+
+    @property
+    def truth(self):
+        return self.radio.snapshot.state
+
+    def move_sticks(self):
+        # After a pause of this process the next answer tells whether the aircraft is silent.
+        with suppress(RadioError):
+            self.radio.exchange(write_sticks(self.sticks))
+
+    def poll(self):
+        """Move the sticks, and take what the ground gets; return the newest telemetry."""
+        self.move_sticks()
+        with suppress(BlockingIOError):
+            *lines, self._unread = (self._unread + self.ground.recv(1 << 20)).split(b"\n")
+            for message in map(json.loads, lines):
+                if message["name"] == "up.telemetry.update":
+                    self.frame = message["data"]
+                elif message["name"] in ("up.ack", "up.nack"):
+                    self.answers[message["data"]["id"]] = message["data"]
+        return self.frame
+
+    def until(self, condition, what):
+        return until(lambda: self.poll() and condition(self.frame), lambda: f"{what}: {self.seen}")
+
+    @property
+    def seen(self):
+        names = ("armed", "flight_mode", "vetoes", "flight_control", "orientation", "rx", "home")
+        return {name: self.frame.get(name) for name in names}, self.truth, self.daemon.log[-20:]
+
+    def send(self, mode):
+        """Request a flight mode and return the answer; a repeated id would get the first one."""
+        self.sent += 1
+        identity = str(self.sent)
+        message = {"name": "up.flight_mode.set", "data": {"mode": mode}, "id": identity}
+        self.ground.sendall(json.dumps(message).encode() + b"\n")
+        self.until(lambda _: identity in self.answers, mode)
+        return self.answers[identity]
+
+    def close(self):
+        self.ground.close()
+        self.radio.close()
+        self.daemon.kill()
+
+
+@pytest.fixture(scope="module")
+def flight(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("flight")
+    options = (
+        "--autopilot", "betaflight", "--sitl", need_peer("betaflight_SITL"), "--no-phone",
+        "--turbulence", "none", "--radio-socket", folder / "radio",
+    )  # fmt: skip
+    with Program(*options) as aircraft:
+        assert aircraft.wait_for("board_ready").fields["path"] == LINE
+        flight = Flight(folder, aircraft)
+        yield flight
+        flight.close()
+        assert aircraft.end()[0] == 0
+
+
+def turned(frame, other):
+    return abs((frame["orientation"]["yaw"] - other["orientation"]["yaw"] + 180) % 360 - 180)
+
+
+def test_raspilot_reads_receiver_attitude_position_and_arming(flight):
+    flight.sticks = replace(FBW, ailerons=1700, rudder=1510)
+    flight.until(lambda frame: frame["armed"], "armed")
+    flight.until(lambda frame: (frame.get("rx") or {}).get("ailerons") == 1700, "the sticks")
+    flight.until(lambda frame: frame["orientation"]["roll"] > 8, "the bank of the sticks")
+    frame = flight.frame
+    assert frame["flight_mode"] == "FBW" and frame["in_flight"]
+    assert frame["rx"] == {"ailerons": 1700, "elevator": 1500, "throttle": 1550, "rudder": 1510,
+                           "aux1": 1500, "aux2": 2000}  # fmt: skip
+    assert frame["source"] == {**frame["source"], "orientation": "msp", "location": "msp"}
+    assert frame["orientation"]["roll"] == pytest.approx(flight.truth.roll_deg, abs=10)
+    assert frame["home"]["latitude"] == pytest.approx(50.0, abs=0.01)
+    flight.sticks = FBW
+
+
+def test_the_switch_lets_loiter_fly_and_ends_it(flight):
+    assert flight.send("LOITER")["detail"] == "not_at_auto"
+    flight.sticks = AUTO
+    flight.until(lambda _: "code" not in flight.send("LOITER"), "LOITER")
+    flight.until(lambda frame: frame["flight_mode"] == "SETPOINT", "set-points")
+    before, height_m = flight.frame, flight.truth.height_m
+    assert before["flight_control"]["mode"] == "LOITER"
+    flight.until(lambda frame: turned(frame, before) > 120, "a third of the circle")
+    assert flight.truth.height_m == pytest.approx(height_m, abs=25)
+    # The pilot's sticks have been centred: the board reports the set-points in their place.
+    assert abs(flight.truth.roll_deg) > 3
+    flight.sticks = replace(FBW, throttle=1610)
+    flight.until(lambda frame: frame["flight_mode"] == "FBW", "the end of the set-points")
+    flight.until(lambda frame: (frame.get("rx") or {}).get("throttle") == 1610, "the sticks")
+    assert flight.frame["flight_control"]["mode"] is None
+
+
+def test_return_comes_home(flight):
+    flight.sticks = AUTO
+    flight.until(lambda _: "code" not in flight.send("RETURN"), "RETURN")
+    flight.until(
+        lambda frame: frame["flight_control"]["mode"] == "RETURN"
+        and frame["home"]["distance"] < 65,
+        "home",
+    )
+
+
+def test_a_killed_daemon_leaves_the_aircraft_to_the_pilot(flight):
+    side = 1 if flight.truth.roll_deg < 0 else -1
+    # The switch stays at AUTO: the board drops the set-points by itself.
+    flight.sticks = replace(AUTO, ailerons=1500 + side * 350)
+    flight.daemon.kill()
+
+    def is_flown_by_the_pilot():
+        flight.move_sticks()
+        return flight.truth.roll_deg * side > 15
+
+    until(is_flown_by_the_pilot, "the pilot's bank")
