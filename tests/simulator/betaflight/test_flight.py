@@ -2,20 +2,27 @@
 
 import json
 import socket
-from contextlib import suppress
+import time
+from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msp_cog.codec import encode
+from msp_cog.messages import SET_RAW_RC, pack_sticks
 
 from tests.simulator.program import Program
 from tests.support.tools import need_peer
 from tests.support.waiting import until
-from up_simulator.aircraft import load_airframe
-from up_simulator.betaflight.packets import LINE
+from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
+from up_simulator.betaflight.board import FRAME_US, BetaflightBoard
+from up_simulator.betaflight.packets import LINE, MSP_PORT
+from up_simulator.betaflight.world import BetaflightWorld
 from up_simulator.demo.config import write_config
 from up_simulator.harness.ports import choose_ports
 from up_simulator.harness.programs import RealRaspilot
+from up_simulator.harness.real_time import RealTime
+from up_simulator.harness.world import STEP_S, THROTTLE
 from up_simulator.radio.rc_override import RadioLink
 from up_simulator.radio.remote_messages import write_sticks
 from up_simulator.radio.sticks import SWITCH_US, RadioError, Sticks
@@ -107,6 +114,64 @@ def flight(tmp_path_factory):
         yield flight
         flight.close()
         assert aircraft.end()[0] == 0
+
+
+class Companion:
+    """A program on the board's line that never stops sending set-points, flown in this process."""
+
+    def __init__(self):
+        self.dynamics = FlightDynamics(load_airframe("glider"), weather=Weather(turbulence="none"))
+        self.board = BetaflightBoard(self.dynamics, need_peer("betaflight_SITL"))
+        self.world = BetaflightWorld(self.dynamics, self.board)
+        self.world.boot(arms=True)
+        self.line = socket.create_connection(("127.0.0.1", MSP_PORT))
+        self.line.setblocking(False)
+        self.payload = pack_sticks((1500, 1500, 1700, 1500))
+        self.time = RealTime(self)
+
+    def seconds(self):
+        return time.monotonic()
+
+    def fly_until(self, condition):
+        """Fly until the pulses fulfil a condition; return how many receiver frames that took."""
+        begin_us = self.board.now_us
+
+        def flies():
+            self.time.skip(self.world.time_s)
+            while self.time.late_s(self.world.time_s) > STEP_S:
+                self.world.step()
+            self.line.send(encode(SET_RAW_RC, self.payload))
+            with suppress(BlockingIOError):
+                self.line.recv(4096)
+            return condition(self.board.pulses_us())
+
+        until(flies, lambda: f"pulses: {self.board.pulses_us()}")
+        return (self.board.now_us - begin_us) / FRAME_US
+
+    def move(self, **sticks):
+        for channel, pulse_us in sticks.items():
+            self.board.set_stick(channel, pulse_us)
+
+    def close(self):
+        self.line.close()
+        self.board.close()
+
+
+def test_the_boards_switch_ends_the_set_points_of_a_companion_that_never_stops():
+    with closing(Companion()) as companion:
+        companion.move(throttle=1200, aux1=SWITCH_US["FBW"], aux2=2000)
+        companion.fly_until(lambda pulses: 1150 < pulses[THROTTLE] < 1300)
+        companion.move(aux1=SWITCH_US["AUTO"])
+        companion.fly_until(lambda pulses: pulses[THROTTLE] > 1600)
+        companion.move(aux1=SWITCH_US["FBW"])
+        # One frame, and the time that a busy computer takes from the board.
+        frames = companion.fly_until(lambda pulses: pulses[THROTTLE] < 1300)
+        assert frames < 25
+        companion.move(aux1=SWITCH_US["AUTO"])
+        companion.fly_until(lambda pulses: pulses[THROTTLE] > 1600)
+        # Roll and pitch alone leave the throttle to the pilot.
+        companion.payload = pack_sticks((1500, 1500))
+        companion.fly_until(lambda pulses: pulses[THROTTLE] < 1300)
 
 
 def turned(frame, other):

@@ -17,9 +17,9 @@ CENTRE_US = 1500
 class MspOutput(BaseModule):
     """Sends `up.setpoint.set` as `MSP_SET_RAW_RC`, through the curve of the board's ANGLE mode.
 
-    A throttle that the set-point leaves to the pilot is left out, with the rudder. In receiver
-    failsafe nothing is sent: the board's own procedure acts. The board drops a set-point after
-    300 ms, whatever its lifetime.
+    A throttle that the set-point leaves to the pilot is left out, with the rudder. Nothing is sent
+    unless the board's switch lets set-points act, nor in receiver failsafe: the board's own
+    procedure acts. The board drops a set-point after 300 ms, whatever its lifetime.
     """
 
     MODES = WITH_BOARD
@@ -32,9 +32,9 @@ class MspOutput(BaseModule):
         executor.register_command(FlightModeCommand, self.on_flight_mode)
 
     def on_setpoint(self, command: SetpointCommand) -> None:
-        """Send a set-point while the board's curves are known."""
-        curves = self.board.curves
-        if curves is None or command.is_failsafe:
+        """Send a set-point while it may act."""
+        curves, state = self.board.curves, self.board.state
+        if curves is None or not state.is_auto or state.is_failsafe or command.is_failsafe:
             return
         roll, pitch = curves
         sticks = [roll.stick_us(command.roll_deg), pitch.stick_us(command.pitch_deg)]
