@@ -11,6 +11,7 @@ from discovery_cog.config import DISCOVERY
 from gps_cog.config import GPS
 from mavlink_cog.config import MAVLINK
 from mission_control_cog.config import MISSION_CONTROL
+from msp_cog.config import MSP
 from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
 
@@ -31,6 +32,7 @@ FILES = [
     GPS,
     MAVLINK,
     MISSION_CONTROL,
+    MSP,
     PIDS,
     SENSORS,
     AIRFRAME,

@@ -9,7 +9,7 @@ from msp_cog import messages
 from msp_cog.messages import UnfitError
 from msp_cog.stick_curve import StickCurve
 
-from tests.cogs.msp_cog.recorded import ANSWERS, ANGLE, ARMED, OVERRIDE, status
+from tests.cogs.msp_cog.recorded import ANGLE, ANSWERS, ARMED, OVERRIDE, status
 
 BOX_IDS = ANSWERS[messages.BOX_IDS]
 READERS = [

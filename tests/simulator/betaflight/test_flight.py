@@ -1,4 +1,7 @@
-"""Raspilot flies through a Betaflight board: the real SITL, JSBSim, the real daemon, sockets."""
+"""Raspilot flies through a Betaflight board: the real SITL, JSBSim, the real daemon, sockets.
+
+SITL's ports are fixed: whatever uses them is in this file, one after the other.
+"""
 
 import json
 import socket
@@ -13,12 +16,15 @@ from msp_cog.messages import SET_RAW_RC, pack_sticks
 
 from tests.simulator.program import Program
 from tests.support.tools import need_peer
+from tests.support.virtual_environment import REPOSITORY
 from tests.support.waiting import until
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
-from up_simulator.betaflight.board import FRAME_US, BetaflightBoard
-from up_simulator.betaflight.packets import LINE, MSP_PORT
+from up_simulator.aircraft.recorded_flight import read_recording
+from up_simulator.betaflight.board import FRAME_US, SETTINGS, BetaflightBoard
+from up_simulator.betaflight.packets import LINE, MSP_PORT, PWM_PORT
 from up_simulator.betaflight.world import BetaflightWorld
 from up_simulator.demo.config import write_config
+from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.harness.ports import choose_ports
 from up_simulator.harness.programs import RealRaspilot
 from up_simulator.harness.real_time import RealTime
@@ -114,6 +120,29 @@ def flight(tmp_path_factory):
         yield flight
         flight.close()
         assert aircraft.end()[0] == 0
+
+
+def test_the_settings_that_the_cogs_page_advises_are_those_that_fly():
+    page = (REPOSITORY / "cogs" / "msp_cog" / "README.md").read_text(encoding="utf-8")
+    advised = page.split("```\n")[1].splitlines()
+    flown = SETTINGS.read_text(encoding="utf-8").splitlines()
+    assert len(advised) > 8 and set(advised) <= set(flown)
+
+
+def test_without_the_program_and_without_its_settings_there_is_no_board(tmp_path):
+    flight = read_recording(None)
+    with pytest.raises(BoardUnavailableError, match="no-such-program"):
+        BetaflightBoard(flight, "no-such-program")
+    # One that refuses the settings, and one that starts and sends no pulses, end at once.
+    for script in ("exit 1", "[ $# = 2 ]"):
+        program = tmp_path / "sitl"
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+        with pytest.raises(BoardUnavailableError, match="sitl"):
+            BetaflightBoard(flight, str(program))
+    # Both have left the port.
+    with socket.socket(type=socket.SOCK_DGRAM) as other:
+        other.bind(("127.0.0.1", PWM_PORT))
 
 
 class Companion:
@@ -214,8 +243,9 @@ def test_return_comes_home(flight):
     flight.sticks = AUTO
     flight.until(lambda _: "code" not in flight.send("RETURN"), "RETURN")
     flight.until(
-        lambda frame: frame["flight_control"]["mode"] == "RETURN"
-        and frame["home"]["distance"] < 65,
+        lambda frame: (
+            frame["flight_control"]["mode"] == "RETURN" and frame["home"]["distance"] < 65
+        ),
         "home",
     )
 
