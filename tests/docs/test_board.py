@@ -39,7 +39,7 @@ def test_the_board_of_the_page_flies_and_is_gone_when_it_is_silent(aboard):
     board, up, line = aboard
     reactor, sticks = up.context.reactor, []
     up.command_executor.register_command(RXCommand, sticks.append)
-    assert up.vetoes.all == ["text: the text board is not connected"]
+    assert up.vetoes.all == [f"text: {board.absent}"]
     line.send(b"\xff\nA 1\nA 10 -5.5 90\nR 1500 1500 1000 1500 2000 2000\nS 1 0\nnonsense\n")
     reactor.turn()
     assert up.get_module(UpOrientationProvider).reading.value.pitch_deg == -5.5
@@ -62,4 +62,4 @@ def test_the_board_of_the_page_flies_and_is_gone_when_it_is_silent(aboard):
     up.vetoes.clear("test")
     reactor.advance(0.6)
     assert not board.connected and board.is_armed is None
-    assert up.vetoes.all == ["text: the text board is not connected"]
+    assert up.vetoes.all == [f"text: {board.absent}"]

@@ -31,8 +31,8 @@ class ApplicationConfig:
     )
     flight_controller: Literal["arduino", "raspberry", "msp"] = key(
         "arduino",
-        "Where the control loop runs: in the Arduino, in the Raspberry Pi with an Arduino that "
-        "sends the receiver's inputs, or in a Betaflight board in the Arduino's place (msp).",
+        "Where the control loop runs. The Raspberry Pi needs a board that sends the receiver's "
+        "inputs; msp is a Betaflight board.",
         name="flight controller",
     )
     realtime_priority: int = key(

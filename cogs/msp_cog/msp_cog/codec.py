@@ -14,7 +14,7 @@ MAX_PAYLOAD = 254
 
 @dataclass(slots=True)
 class MspCounters:
-    """Counts of frames, and of what was dropped."""
+    """Counts of frames and of dropped bytes."""
 
     frames: int = 0
     refused: int = 0
@@ -31,7 +31,7 @@ def encode(number: int, payload: bytes = b"") -> bytes:
 
 
 class MspDecoder:
-    """Finds replies in a stream of bytes; what is none is dropped and counted."""
+    """Finds replies in a stream of bytes; other bytes are dropped and counted."""
 
     def __init__(self) -> None:
         self.counters = MspCounters()

@@ -13,13 +13,13 @@ CONNECT_S = 0.05
 
 
 def socket_problem(port: str) -> str:
-    """Return what is wrong with ``tcp:ADDRESS:PORT``; empty: nothing."""
+    """Return the fault of ``tcp:ADDRESS:PORT``; empty: none."""
     host, _, number = port.removeprefix(SOCKET).rpartition(":")
     try:
         address = ipaddress.ip_address(host.strip("[]"))
     except ValueError:
         return f"{port!r} is not tcp:ADDRESS:PORT with a numeric address"
-    # MSP has neither keys nor encryption: whoever reaches it moves the servos.
+    # MSP has neither keys nor encryption: a program that reaches it moves the servos.
     if not address.is_loopback:
         return f"{host} is not this computer: MSP is not protected on a network"
     if not (number.isascii() and number.isdecimal() and 0 < int(number) < 65536):
@@ -33,7 +33,7 @@ def open_line(port: str, baud_rate: int) -> int | SerialLike:
         return open_serial(port, baud_rate)
     host, _, number = port.removeprefix(SOCKET).rpartition(":")
     try:
-        # On this computer a connection is made or refused at once.
+        # On this computer a connection is made or refused immediately.
         line = socket.create_connection((host.strip("[]"), int(number)), CONNECT_S)
     except OSError as error:
         raise OSError(f"no board on {port}: {error.strerror or error}") from error

@@ -19,7 +19,7 @@ SET_RAW_RC, SET_ARMING_DISABLED = 200, 99
 SETTINGS = (VARIANT, VERSION, RECEIVER_MAP, RC_TUNING, DEADBAND, ADVANCED)
 """What decides whether set-points may be sent, and how."""
 OLDEST_VERSION = bytes((26, 6))
-"""2026.6: before, a board that gets no set-points any more holds the last one for ever."""
+"""2026.6: an older board holds the last set-point when no other follows."""
 AETR = bytes((0, 1, 3, 2))
 BOX_ARM, BOX_ANGLE, BOX_FAILSAFE, BOX_OVERRIDE = 0, 1, 27, 50
 """Permanent ids of the modes (``msp_box.c``)."""
@@ -130,9 +130,9 @@ def read_curves(settings: Mapping[int, bytes]) -> tuple[StickCurve, StickCurve]:
     """
     variant, version, receiver_map, tuning, deadband, advanced = map(settings.__getitem__, SETTINGS)
     if variant != b"BTFL":
-        raise UnfitError("it is no Betaflight")
+        raise UnfitError("it is not Betaflight")
     if version[:2] < OLDEST_VERSION:
-        raise UnfitError("before version 2026.6 it holds the last set-point for ever")
+        raise UnfitError("before version 2026.6 it holds the last set-point when no other follows")
     if receiver_map[:4] != AETR:
         raise UnfitError("its channel map is not AETR")
     roll_rate, roll_expo, roll_max, pitch_max, _, _, pitch_rate, pitch_expo, kind = (

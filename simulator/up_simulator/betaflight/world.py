@@ -9,7 +9,7 @@ from up_simulator.harness.world import STEP_US, THROTTLE, THROTTLE_LOW_US, World
 from up_simulator.radio.sticks import HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
 
 TRY_US = 2e6
-"""So long AUX2 is low, and then high: the board arms when it rises, and may refuse."""
+"""How long AUX2 is low, then high: the board arms when it rises, or refuses."""
 IDLE_US = 20.0
 """The motor of an armed board idles, by more than this."""
 

@@ -23,12 +23,12 @@ def reply(number, payload, direction=b">"):
 
 
 class Rig:
-    """``heard`` has what the board was sent and that is no question; ``answers`` may be changed."""
+    """``heard`` has the messages to the board that request nothing; ``answers`` may be changed."""
 
     def __init__(self, folder):
         self.answers, self.heard, self.unread = dict(ANSWERS), [], b""
         self.refused, self.lost_every, self.replies = set(), 0, 0
-        # A pair of sockets: what one end sends the other has at once.
+        # A pair of sockets: the other end has immediately what one sends.
         self.end, self.port = socket.socketpair()
         for each in (self.end, self.port):
             each.setblocking(False)

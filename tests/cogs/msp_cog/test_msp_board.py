@@ -122,7 +122,7 @@ def test_attack_a_set_point_goes_nowhere_without_the_switch_or_the_receiver(
     ids=["other firmware", "4.5", "2025.12", "TAER", "rates"],
 )
 def test_attack_a_board_that_would_not_follow_as_meant_gets_no_set_point(rig, number, payload):
-    """Older ones hold the last set-point for ever when this program is killed."""
+    """Older ones hold the last set-point when this program is killed."""
     good = rig.answers[number]
     rig.answers[number] = payload
     rig.advance(1.2)
@@ -187,7 +187,7 @@ def test_a_silent_board_is_unknown_until_it_answers_again(rig):
     answers, rig.answers = rig.answers, {}
     rig.advance(1.0)
     assert not rig.board.connected and rig.board.is_armed is None and rig.board.curves is None
-    assert rig.up.vetoes.all == ["msp: the Betaflight board is not connected"]
+    assert rig.up.vetoes.all == [f"msp: {rig.board.absent}"]
     rig.execute(SETPOINT)
     assert sent(rig) == []
     rig.answers = answers

@@ -68,7 +68,7 @@ class Flight:
         return self.radio.snapshot.state
 
     def move_sticks(self):
-        # After a pause of this process the next answer tells whether the aircraft is silent.
+        # After a pause of this process the next answer decides.
         with suppress(RadioError):
             self.radio.exchange(write_sticks(self.sticks))
 
@@ -133,7 +133,7 @@ def test_without_the_program_and_without_its_settings_there_is_no_board(tmp_path
     flight = read_recording(None)
     with pytest.raises(BoardUnavailableError, match="no-such-program"):
         BetaflightBoard(flight, "no-such-program")
-    # One that refuses the settings, and one that starts and sends no pulses, end at once.
+    # One that refuses the settings, and one that starts and sends no pulses, end immediately.
     for script in ("exit 1", "[ $# = 2 ]"):
         program = tmp_path / "sitl"
         program.write_text(f"#!/bin/sh\n{script}\n")
@@ -252,7 +252,7 @@ def test_return_comes_home(flight):
 
 def test_a_killed_daemon_leaves_the_aircraft_to_the_pilot(flight):
     side = 1 if flight.truth.roll_deg < 0 else -1
-    # The switch stays at AUTO: the board drops the set-points by itself.
+    # The switch stays at AUTO: the board drops the set-points.
     flight.sticks = replace(AUTO, ailerons=1500 + side * 350)
     flight.daemon.kill()
 
