@@ -17,6 +17,7 @@ SUBJECTS = {
     "latency": "sensor to actuator through the running daemon",
     "link": "data of the uplink at IP level, and CPU of packed telemetry",
     "mavlink": "CPU of a MAVLink client at 100 messages a second, and the delay of an answer",
+    "msp": "a Betaflight board by MSP: its answers, and its switch until its output",
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
     "recorder": "what recording the flight costs",

@@ -26,6 +26,7 @@ from up_simulator.firmware.preparation import PreparationError, cached_eeprom
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.harness.user_log import no_log
 from up_simulator.harness.workers import MAX_PROCESSES, Workers
+from up_simulator.harness.world import World
 from up_simulator.phone.sensors import PhoneSensors
 from up_simulator.radio.circling_pilot import CirclingPilot
 
@@ -156,8 +157,8 @@ def fly(
     eeprom = cached_eeprom("host", airframe.profile, airframe.gains)
     board = choose_board("host", seed=seed, eeprom=eeprom, imu_errors=errors or drawn)
     clock, line = StarvedClock(seed, is_starved), ComparingLine(flight, seed, has_raspberry)
-    pilot = CirclingPilot()
-    aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", no_log)
+    pilot, world = CirclingPilot(), World(flight, board)
+    aircraft = FirmwareAircraft(flight, world, line, pilot, clock, "circle", no_log)
     found: list[Errors] = []
     for minute in range(1, minutes + 1):
         while aircraft.real_time.world.time_s < 60.0 * minute:

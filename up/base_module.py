@@ -35,6 +35,9 @@ class BaseModule:
     """How long one call may hold the event loop: longer ones are counted, logged with the module's
     name, and end a flight mode. At least 0.020."""
     MODES: ClassVar[frozenset[Mode]] = IN_EVERY_MODE
+    FLIGHT_CONTROLLERS: ClassVar[frozenset[str] | None] = None
+    """The values of ``flight controller`` (config.yml) for which it, and what needs it, is loaded;
+    None: every one."""
 
     up: Up
     context: Context

@@ -28,7 +28,7 @@ from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
-from up.flight_modes.declarations import GROUND_MODES, auto_mode_problem
+from up.flight_modes.declarations import auto_mode_problem, ground_modes
 from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
@@ -89,6 +89,7 @@ class FlightModeManager(BaseFlightController):
 
     def on_init(self) -> None:
         super().on_init()
+        self._ground_modes = ground_modes(self.context.application.flight_controller)
         self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
         for path, problem in self._selector.problems.items():
             self.log.error("{problem}", problem=problem, module=path, code="mode_invalid")
@@ -139,7 +140,7 @@ class FlightModeManager(BaseFlightController):
                 "selected": selector.selected,
                 "fallback": selector.reason if is_flying else None,
                 "modes": offers,
-                "board_modes": list(GROUND_MODES),
+                "board_modes": list(self._ground_modes),
             },
             "navigation": {"target": telemetry_of(target if is_flying else None, "radius")},
             "home": self.home.telemetry(self._navigation, self.config.airspeed.cruise_m_s),
@@ -308,7 +309,7 @@ class FlightModeManager(BaseFlightController):
         name = command.mode
         if self._executor.origin == self._origin:
             return None
-        if name == AUTO or name in GROUND_MODES:
+        if name == AUTO or name in self._ground_modes:
             # The board accepts a mode only with the switch at AUTO; a refused one does not count.
             if self.board.is_auto:
                 self._is_asked = name == AUTO

@@ -13,6 +13,7 @@ from gps_cog.config import GPS
 from mavlink_cog.config import MAVLINK
 from metrics_cog.config import METRICS
 from mission_control_cog.config import MISSION_CONTROL
+from msp_cog.config import MSP
 from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
 
@@ -35,6 +36,7 @@ FILES = [
     MAVLINK,
     METRICS,
     MISSION_CONTROL,
+    MSP,
     PIDS,
     SENSORS,
     AIRFRAME,

@@ -32,6 +32,15 @@ def need_browser() -> str:
     return node
 
 
+def need_peer(name: str) -> str:
+    """Return the path of a program that others wrote, kept beside the repository; skip without."""
+    for folder in REPOSITORY.parents[:2]:
+        path = folder / "shared" / "peers" / name
+        if path.is_file():
+            return str(path)
+    pytest.skip(f"{name} is not in shared/peers beside the repository")
+
+
 def unavailable(reason: str) -> None:
     """Skip the running test for a reason of the machine, or fail with UP_REQUIRE_TOOLS set."""
     if os.environ.get("UP_REQUIRE_TOOLS"):

@@ -29,10 +29,10 @@ class ApplicationConfig:
         "the flight (black box). With auto it depends on whether a board answers. The environment "
         "variable UP_MODE takes the same words and comes first.",
     )
-    flight_controller: Literal["arduino", "raspberry"] = key(
+    flight_controller: Literal["arduino", "raspberry", "msp"] = key(
         "arduino",
         "Where the control loop runs. The Raspberry Pi needs a board that sends the receiver's "
-        "inputs.",
+        "inputs; msp is a Betaflight board.",
         name="flight controller",
     )
     realtime_priority: int = key(

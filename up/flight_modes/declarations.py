@@ -17,6 +17,11 @@ GROUND_MODES = ("FBW", "RATE")
 """The board's modes that a ground may select."""
 
 
+def ground_modes(flight_controller: str) -> tuple[str, ...]:
+    """Return those of the configured board; of a Betaflight board the transmitter selects RATE."""
+    return GROUND_MODES[:1] if flight_controller == "msp" else GROUND_MODES
+
+
 def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str, str]]:
     """Return the modes by name, and by path what is wrong with others or with a fallback."""
     found: dict[str, FlightMode] = {}

@@ -11,6 +11,7 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.context import Context
 from up.loading.discovery import IMPORT_FAULTS, Discovered
 from up.loading.plan import BootError, Plan, Rejected, path_of, problem_of
+from up.needs import declared_needs
 
 
 def select(
@@ -34,11 +35,27 @@ def select(
         if context.mode not in cls.MODES:
             _reject(plan, cls, f"not for the mode {context.mode.value!r}", "other_mode")
             continue
+        if not _is_for(cls, context.application.flight_controller):
+            _reject(plan, cls, "not for this 'flight controller' (config.yml)", "other_board")
+            continue
         module = _build(cls, context, plan)
         if module is not None:
             chosen.append(module)
     plan.modules = _without_overridden(chosen, builtins, plan)
     return plan
+
+
+def _is_for(cls: type[BaseModule], controller: str) -> bool:
+    """Return whether a module, and each that it requires, is for this flight controller."""
+    wanted, seen = [cls], set[type[BaseModule]]()
+    while wanted:
+        each = wanted.pop()
+        if each.FLIGHT_CONTROLLERS is not None and controller not in each.FLIGHT_CONTROLLERS:
+            return False
+        if each not in seen:
+            seen.add(each)
+            wanted += [need.wanted for need in declared_needs(each) if not need.optional]
+    return True
 
 
 def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | None:

@@ -31,7 +31,7 @@ class Child:
     project; ``<name>.pid`` there has its process number if the program writes one. On Linux it
     gets ``death_signal`` when we die without ending it. ``in_foreground`` leaves it the terminal;
     its output is not kept. With ``is_piped`` its standard input and output are ``input`` and
-    ``output``, and only its error output is kept.
+    ``output``, and only its error output is kept. It runs in ``work_folder``, if there is one.
     """
 
     def __init__(
@@ -44,6 +44,7 @@ class Child:
         is_piped: bool = False,
         death_signal: int = signal.SIGTERM,
         environment: Mapping[str, str] | None = None,
+        work_folder: Path | None = None,
     ) -> None:
         self.name = name
         self.log = folder / f"{name}.log"
@@ -64,6 +65,7 @@ class Child:
                 stdout=subprocess.PIPE if is_piped else output,
                 stderr=output if is_piped else subprocess.STDOUT if output else None,
                 env=variables,
+                cwd=work_folder,
                 start_new_session=not in_foreground,
                 preexec_fn=request_death_signal(death_signal),
             )

@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 from up_simulator.aircraft import Start
 from up_simulator.aircraft.flight import Clock, FlightSource
-from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.harness.real_time import RealTimeWorld, SerialLine
 from up_simulator.harness.user_log import Log
 from up_simulator.harness.world import World
@@ -34,7 +33,7 @@ class FirmwareAircraft:
     def __init__(
         self,
         flight: FlightSource,
-        board: FirmwareBoard,
+        world: World,
         line: SerialLine,
         radio: Radio,
         clock: Clock,
@@ -50,7 +49,6 @@ class FirmwareAircraft:
         self._battery_s = 0.0
         self._describe_pilot = describe_pilot
         self._end = ""
-        world = World(flight, board)
         world.boot(arms=self._arms)
         self.real_time = RealTimeWorld(world, line, radio, clock, log)
 

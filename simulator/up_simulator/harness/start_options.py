@@ -122,6 +122,19 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         default="auto",
         help=BOARD_HELP,
     )
+    group.add_argument(
+        "--autopilot",
+        choices=("arduino", "betaflight"),
+        default="arduino",
+        help="arduino (default): our firmware; betaflight: the program --sitl, at"
+        " tcp:127.0.0.1:5761 (msp.yml: port)",
+    )
+    group.add_argument(
+        "--sitl",
+        default="betaflight_SITL",
+        metavar="FILE",
+        help="Betaflight built for this computer, default %(default)s on the search path",
+    )
     group.add_argument("--elf", type=_file, metavar="FILE", help="a built firmware")
     group.add_argument(
         "--gains", type=_file, metavar="FILE", help="pids.yml that the Arduino's EEPROM holds"

@@ -15,12 +15,16 @@ from up_rig.pty_line import PtyLine
 from up_simulator.aircraft import Airframe, load_airframe
 from up_simulator.aircraft.recorded_flight import RecordedFlight, StateLog
 from up_simulator.aircraft.truth import NAMES, RECORDED_NAMES, record_of
+from up_simulator.betaflight.board import BetaflightBoard
+from up_simulator.betaflight.packets import LINE as BETAFLIGHT_LINE
+from up_simulator.betaflight.world import BetaflightWorld, NoLine
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.harness.parts import make_board, make_flight
-from up_simulator.harness.real_time import RealTimeFlight
+from up_simulator.harness.real_time import RealTimeFlight, SerialLine
 from up_simulator.harness.uplink import make_uplink
 from up_simulator.harness.user_log import Log
+from up_simulator.harness.world import World
 from up_simulator.link.relay import LinkRelay
 from up_simulator.phone.address import RaspberryPi, Runner, discover, spawn
 from up_simulator.phone.link import PythonHandset
@@ -48,6 +52,7 @@ class VirtualAircraft:
         self._log = log
         self._line: PtyLine | None = None
         self._gps_line: PtyLine | None = None
+        self._betaflight: BetaflightBoard | None = None
         self._radio: Radio | None = None
         self._phone: PythonHandset | None = None
         self._state_log: StateLog | None = None
@@ -65,8 +70,9 @@ class VirtualAircraft:
 
     def start(self, on_failure: Callable[[Any], None]) -> None:
         """Begin to fly; ``on_failure`` gets the failure of a tick, which ends the flight."""
-        if self._line is not None:
-            self._log(f"board on {self._line.path}", code="board_ready", path=str(self._line.path))
+        path = BETAFLIGHT_LINE if self._line is None else self._line.path
+        if self._radio is not None:
+            self._log(f"board on {path}", code="board_ready", path=str(path))
         if self._phone is not None:
             self._phone.start()
         self._loop.start(TICK_S).addErrback(on_failure)
@@ -109,7 +115,6 @@ class VirtualAircraft:
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
     ) -> Callable[[], None]:
         has_motor = airframe.has_motor and options.replay is None
-        self._line = line = PtyLine(options.pty_link)
         monitor = LineMonitor()
 
         def mode() -> str:
@@ -143,9 +148,9 @@ class VirtualAircraft:
             return f"{mode() or 'unknown mode'}, {pilot} had the sticks"
 
         # Last, because it may have to be built.
-        board = make_board(options, airframe, self._log)
+        world, line = self._make_world(options, airframe)
         aircraft = FirmwareAircraft(
-            self.flight, board, line, radio, self._reactor, options.radio, self._log, describe_pilot
+            self.flight, world, line, radio, self._reactor, options.radio, self._log, describe_pilot
         )
 
         def on_sent(data: bytes) -> None:
@@ -158,6 +163,18 @@ class VirtualAircraft:
 
         aircraft.real_time.on_sent = on_sent
         return aircraft.advance
+
+    def _make_world(
+        self, options: argparse.Namespace, airframe: Airframe
+    ) -> tuple[World, SerialLine]:
+        if options.autopilot == "betaflight":
+            self._betaflight = BetaflightBoard(self.flight, options.sitl, options.seed)
+            text = f"aboard: {self._betaflight.title}"
+            self._log(text, code="board_selected", board=self._betaflight.title)
+            return BetaflightWorld(self.flight, self._betaflight), NoLine()
+        board = make_board(options, airframe, self._log)
+        self._line = PtyLine(options.pty_link)
+        return World(self.flight, board), self._line
 
     def _make_phone(self, options: argparse.Namespace) -> PythonHandset:
         def log(text: str, /, *, code: str = "phone", **fields: Any) -> None:
@@ -188,10 +205,10 @@ class VirtualAircraft:
                 self._state_log = None
 
     def _release(self) -> None:
-        for each in (self._radio, self._line, self._gps_line, self._state_log):
+        for each in (self._radio, self._line, self._gps_line, self._state_log, self._betaflight):
             if each is not None:
                 each.close()
-        self._radio = self._line = self._gps_line = self._state_log = None
+        self._radio = self._line = self._gps_line = self._state_log = self._betaflight = None
 
 
 def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaitable[RaspberryPi]]:

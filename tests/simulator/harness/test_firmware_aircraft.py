@@ -12,6 +12,7 @@ from up_simulator.harness.firmware_aircraft import (
     MIN_BATTERY_PERCENT,
     FirmwareAircraft,
 )
+from up_simulator.harness.world import World
 from up_simulator.radio.choice import ScriptedRadio
 
 DIVES = "t=0 elevator=1350 throttle=1000"
@@ -24,8 +25,9 @@ class Flown:
         self.clock, self.logged, self.line = Clock(), [], PtyLine()
         self.flight = FlightDynamics(load_airframe("glider"), Start(**start), may_land=True)
         radio = ScriptedRadio(read_sticks(script))
+        world = World(self.flight, DirectBoard())
         self.aircraft = FirmwareAircraft(
-            self.flight, DirectBoard(), self.line, radio, self.clock, "script", self.log,
+            self.flight, world, self.line, radio, self.clock, "script", self.log,
             lambda: "ACRO, a script had the sticks",
         )  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from serial_cog.config import ARDUINO
@@ -13,7 +13,6 @@ from twisted.internet.defer import Deferred
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand, read_status
 from arduino_cog.request_tracker import RequestTracker
 from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
-from up.base_started_module import BaseStartedModule
 from up.commands.board_schema import OLDEST_SIZE, STATUS, VERSION, Reason
 from up.commands.board_status import (
     flight_mode_name,
@@ -22,60 +21,49 @@ from up.commands.board_status import (
     refusal_text,
     telemetry_of,
 )
-from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
-from up.commands.origin import Origin
 from up.commands.refusal import Code, CommandRefusedError
-from up.commands.roles import Role
 from up.commands.rx_command import RXCommand
 from up.commands.servo_command import ServoCommand
-from up.commands.system_commands import LinkStateCommand
 from up.config import ConfigErrors, ConfigProblem
+from up.flight_controller.base_board import BaseBoard
 from up.flight_controller.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
 from up.flight_controller.profile_wire import PROFILE_SIZE
-from up.mode import WITH_BOARD
 from up.needs import needs
 from up.system.clock import Timer, cancel
 
 LINK = "arduino"
-ORIGIN = Origin(LINK, Role.BOARD, priority=10)
 ALIVE_S = 0.4
 STATUS_LIMIT_S = 1.0
 _VETO = "arduino firmware"
-_ABSENT = "the Arduino is not connected"
 _START = ord("s")
 _ECHOES = {"s": 0, "a": 0, "d": 0, "h": 2, "b": 2, "B": 2, "l": 8, "p": 3, "t": 48}
-_AXES = ("ailerons", "elevator", "throttle", "rudder")
 
 _unpack_orientation = ORIENTATION.unpack
 _unpack_inputs = INPUTS.unpack
 _unpack_outputs = OUTPUTS.unpack
 
 
-class ArduinoProvider(BaseStartedModule):
+class ArduinoProvider(BaseBoard):
     """Publishes the Arduino's data, keeps it started, and sends it the requests of other modules.
 
     Orientation (`O`, `o`), receiver inputs (`i`), servo outputs (`r`) and status (`x`) become
     Commands of the link ``arduino``. The Start Command is sent until the Arduino forwards, the veto
-    of this program at least every 400 ms. ``add_board_listener`` reports a board without known
-    state: it was connected, or it was reset.
+    of this program at least every 400 ms.
     """
 
-    MODES = WITH_BOARD
+    LINK = LINK
+    TITLE = "the Arduino"
 
     serial = needs(SerialProvider)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.status: ArduinoStatusCommand | None = None
-        self.servo: ServoCommand | None = None
         self.has_motor: bool | None = None
         self.counters: Counter[str] = Counter()
-        self._servo_s = 0.0
         self._status_s = float("-inf")
-        self._state_s = 0.0
-        self._board_listeners: list[Callable[[], object]] = []
         self._alive: Timer | None = None
         self._refusals_named: set[tuple[str, str]] = set()
 
@@ -103,43 +91,24 @@ class ArduinoProvider(BaseStartedModule):
         return self.serial.connected
 
     @property
-    def is_armed(self) -> bool | None:
-        return None if self.status is None else self.status.is_armed
-
-    @property
     def is_in_flight(self) -> bool | None:
         """Return whether the aircraft may be in flight; None while unknown."""
         return None if self.status is None else self.status.is_in_flight(self.has_motor)
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the state of the Arduino, and the servo outputs."""
+        """Return the state of the Arduino beside that of the flight."""
         status = self.status
-        servo = self.servo
-        now_s = self._seconds()
-        ages_ms = {
-            "servo": servo and round((now_s - self._servo_s) * 1000),
-            "flight": status and round((now_s - self._state_s) * 1000),
-        }
         counters = {**self.counters, "unmatched": self.requests.unmatched}
         return {
+            **super().telemetry_content,
             "arduino": {
                 "connected": self.connected,
                 "framing": self.serial.framing,
                 **telemetry_of(None if status is None else status.data),
             },
-            "armed": self.is_armed,
-            "in_flight": self.is_in_flight,
-            "flight_mode": status and flight_mode_name(status.mode),
-            "servo": {axis: servo and getattr(servo, f"{axis}_us") for axis in _AXES},
-            "age_ms": ages_ms,
-            "source": {"servo": servo and LINK, "flight": status and LINK},
             "counters": {"arduino": counters},
         }
-
-    def add_board_listener(self, listener: Callable[[], object]) -> None:
-        """Call ``listener`` whenever a board answers that may be new or reset."""
-        self._board_listeners.append(listener)
 
     def request(
         self, type_: str, payload: bytes = b"", *, answer: str = "K", may_repeat: bool = True
@@ -160,7 +129,7 @@ class ArduinoProvider(BaseStartedModule):
     def require_connected(self) -> None:
         """Raise CommandRefusedError when no Arduino is connected."""
         if not self.connected:
-            raise CommandRefusedError(_ABSENT, Code.UNAVAILABLE)
+            raise CommandRefusedError(self.absent, Code.UNAVAILABLE)
 
     def require_checked(self, what: str) -> None:
         """Raise CommandRefusedError if thesis framing has no message for ``what``."""
@@ -176,13 +145,10 @@ class ArduinoProvider(BaseStartedModule):
         return self.serial.send_command(type_, payload, True)
 
     def on_init(self) -> None:
-        executor: CommandExecutor = self.up.command_executor
-        self._execute = executor.execute_command
-        self._seconds = self.context.reactor.seconds
+        super().on_init()
         self.requests = RequestTracker(self.context.reactor, self.serial.send_command)
         self._veto_changed_before = self.up.vetoes.on_changed
         self.up.vetoes.on_changed = self._on_veto_changed
-        self.up.vetoes.report(LINK, (_ABSENT,))
         self._subscribe()
         self.serial.add_listener(self)
 
@@ -231,18 +197,13 @@ class ArduinoProvider(BaseStartedModule):
 
     def on_line_heard(self) -> None:
         """Report that the Arduino is connected."""
-        self.log.info("the Arduino answers", code="board_connected")
-        self.up.vetoes.report(LINK, ())
-        self._execute(LinkStateCommand(LINK, True), ORIGIN)
-        self._notify_board_started()
+        self.report_heard()
 
     def on_line_silent(self) -> None:
-        """Report that the Arduino is gone; its last values are unknown from now on."""
+        """Report that the Arduino is gone."""
         self.status = None
-        self.up.vetoes.report(LINK, (_ABSENT,))
-        self.requests.fail_all(_ABSENT)
-        self._execute(FlightStateCommand(None, False, False, False), ORIGIN)
-        self._execute(LinkStateCommand(LINK, False), ORIGIN)
+        self.requests.fail_all(self.absent)
+        self.report_silent()
 
     def _on_orientation(self, payload: bytes) -> None:
         sequence, yaw, pitch, roll, yaw_rate, pitch_rate, roll_rate = _unpack_orientation(payload)
@@ -257,7 +218,7 @@ class ArduinoProvider(BaseStartedModule):
         ):
             self._execute(
                 OrientationCommand(roll, pitch, yaw, roll_rate, pitch_rate, yaw_rate, sequence),
-                ORIGIN,
+                self.origin,
             )
         else:
             self.counters["invalid_orientations"] += 1
@@ -265,14 +226,14 @@ class ArduinoProvider(BaseStartedModule):
     def _on_attitude(self, payload: bytes) -> None:
         yaw, pitch, roll = ATTITUDE.unpack(payload)
         if -360.0 <= yaw <= 360.0 and -360.0 <= pitch <= 360.0 and -360.0 <= roll <= 360.0:
-            self._execute(OrientationCommand(roll, pitch, yaw), ORIGIN)
+            self._execute(OrientationCommand(roll, pitch, yaw), self.origin)
         else:
             self.counters["invalid_orientations"] += 1
 
     def _on_inputs(self, payload: bytes) -> None:
         inputs = _unpack_inputs(payload)
         if max(inputs) <= 3000 and inputs[6] <= 63:
-            self._execute(RXCommand(*inputs), ORIGIN)
+            self._execute(RXCommand(*inputs), self.origin)
         else:
             self.counters["invalid_inputs"] += 1
 
@@ -281,9 +242,7 @@ class ArduinoProvider(BaseStartedModule):
         if max(outputs) > 3000:
             self.counters["invalid_outputs"] += 1
             return
-        self.servo = ServoCommand(*outputs)
-        self._servo_s = self._seconds()
-        self._execute(self.servo, ORIGIN)
+        self.publish_servo(ServoCommand(*outputs))
 
     def _on_status(self, payload: bytes) -> None:
         status = read_status(payload)
@@ -297,7 +256,6 @@ class ArduinoProvider(BaseStartedModule):
             return
         self.up.vetoes.clear(_VETO)
         previous, self.status = self.status, status
-        self._state_s = self._status_s
         self.up.vetoes.report(LINK, status.veto_names)
         if previous is not None and status.uptime_s < previous.uptime_s:
             self._on_reset(status)
@@ -308,11 +266,11 @@ class ArduinoProvider(BaseStartedModule):
                 code="board_restored",
                 **_reset_of(status),
             )
-        self._execute(status, ORIGIN)
-        self._execute(flight_state_of(status, self.has_motor), ORIGIN)
+        self.publish(status)
+        self.publish_state(flight_state_of(status, self.has_motor))
         forward_m_s2 = forward_m_s2_of(status)
         if forward_m_s2 is not None:
-            self._execute(AccelerationCommand(forward_m_s2), ORIGIN)
+            self.publish(AccelerationCommand(forward_m_s2))
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
@@ -322,7 +280,7 @@ class ArduinoProvider(BaseStartedModule):
             **_reset_of(status),
         )
         self._send_start()
-        self._notify_board_started()
+        self.notify_board_started()
 
     def _on_confirmed(self, payload: bytes) -> None:
         if payload[0] != _START:
@@ -378,10 +336,6 @@ class ArduinoProvider(BaseStartedModule):
 
     def _send_start(self) -> None:
         self.serial.send_command("s")
-
-    def _notify_board_started(self) -> None:
-        for listener in self._board_listeners:
-            listener()
 
 
 def _reset_of(status: ArduinoStatusCommand) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.config import FLIGHT_BATTERY
-from arduino_cog.modules.arduino_provider import ORIGIN, ArduinoProvider
+from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.base_module import BaseModule
 from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.roles import Role
@@ -97,7 +97,7 @@ class FlightBattery(BaseModule, FailureSource):
         """Publish a measured voltage and compare it with the limits."""
         voltage_v = self.voltage_v or 0.0
         if voltage_v and self._sensor is None:
-            self.up.command_executor.execute_command(FlightBatteryCommand(voltage_v), ORIGIN)
+            self.arduino.publish(FlightBatteryCommand(voltage_v))
         if not voltage_v and not self._is_unknown_logged:
             self._is_unknown_logged = True
             self.log.warn(

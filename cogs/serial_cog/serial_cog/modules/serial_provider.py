@@ -47,6 +47,7 @@ class SerialProvider(BaseStartedModule):
 
     CONFIG = ARDUINO
     MODES = WITH_BOARD
+    FLIGHT_CONTROLLERS = frozenset({"arduino", "raspberry"})
     DATA_SOURCE = True
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:

@@ -1,0 +1,1 @@
+"""The MSP cog: a Betaflight board in place of the Arduino."""

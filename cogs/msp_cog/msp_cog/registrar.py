@@ -1,0 +1,12 @@
+"""The registration of the cog."""
+
+from __future__ import annotations
+
+from msp_cog.config import MSP
+from up.cogs.up_registrant import UpRegistrant
+
+
+class Registrant(UpRegistrant):
+    """Registers the MSP cog."""
+
+    CONFIG_FILES = (MSP,)
