@@ -4,6 +4,7 @@ SITL's ports are fixed: whatever uses them is in this file, one after the other.
 """
 
 import json
+import signal
 import socket
 import time
 from contextlib import closing, suppress
@@ -24,6 +25,7 @@ from up_simulator.betaflight.board import FRAME_US, SETTINGS, BetaflightBoard
 from up_simulator.betaflight.packets import LINE, MSP_PORT, PWM_PORT
 from up_simulator.betaflight.world import BetaflightWorld
 from up_simulator.demo.config import write_config
+from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.harness.ports import choose_ports
 from up_simulator.harness.programs import RealRaspilot
@@ -201,6 +203,11 @@ def test_the_boards_switch_ends_the_set_points_of_a_companion_that_never_stops()
         # Roll and pitch alone leave the throttle to the pilot.
         companion.payload = pack_sticks((1500, 1500))
         companion.fly_until(lambda pulses: pulses[THROTTLE] < 1300)
+        # A board that has ended is noticed, in the flight's time.
+        companion.board._child.signal(signal.SIGKILL)
+        with pytest.raises(BoardCrashedError):
+            for _ in range(round(6.0 / STEP_S)):
+                companion.world.step()
 
 
 def turned(frame, other):
@@ -241,6 +248,10 @@ def test_the_switch_lets_loiter_fly_and_ends_it(flight):
     # The pilot's sticks are centred.
     flight.until(lambda frame: turned(frame, before) > 120, "a third of the circle")
     assert flight.truth.height_m == pytest.approx(height_m, abs=25)
+    # RATE is the transmitter's alone: the request does not end LOITER.
+    assert flight.frame["flight_control"]["board_modes"] == ["FBW"]
+    assert flight.send("RATE")["detail"] == "mode_unknown"
+    assert flight.frame["flight_control"]["selected"] == "LOITER"
     flight.sticks = replace(FBW, throttle=1610)
     flight.until(lambda frame: frame["flight_mode"] == "FBW", "the end of the set-points")
     flight.until(lambda frame: (frame.get("rx") or {}).get("throttle") == 1610, "the sticks")
