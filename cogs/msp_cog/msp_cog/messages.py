@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from msp_cog.stick_curve import StickCurve
+from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.location_command import LocationCommand
 
 VARIANT, VERSION, RECEIVER_MAP, ADVANCED, STATUS = 2, 3, 64, 94, 150
@@ -32,6 +33,7 @@ ARMING_DISABLED = (
     "position_hold", "autopilot", "arm_switch",
 )  # fmt: skip
 """Why the board does not arm, by bit (``runtime_config.h``)."""
+MAX_PULSE_US = 3000
 COUNTS_DEG_S = 16.4
 """``RAW_IMU`` has counts of a gyro with a range of 2000 deg/s."""
 FIX_AGE_MS = 200.0
@@ -44,7 +46,7 @@ _STATUS = struct.Struct("<6xI4xBB")
 _FLAGS = struct.Struct("<BI")
 _TUNING = struct.Struct("<5B6xBBB2x6xB")
 _ANGLE_AT = 17
-_SERVOS = struct.Struct("<8H")
+_SERVOS, _MOTOR = struct.Struct("<8H"), struct.Struct("<H")
 
 
 class UnfitError(Exception):
@@ -95,14 +97,14 @@ def read_channels(payload: bytes) -> tuple[int, int, int, int, int, int]:
 
     The board sends ailerons, elevator, rudder, throttle, its elevator down above 1500.
     """
-    ailerons, elevator, rudder, throttle, aux1, aux2 = _RC.unpack_from(payload)
+    ailerons, elevator, rudder, throttle, aux1, aux2 = _pulses(_RC.unpack_from(payload))
     return ailerons, 3000 - elevator, throttle, rudder, aux1, aux2
 
 
-def read_voltage(payload: bytes) -> float:
-    """Return the voltage of the flight battery, V; 0: not measured."""
+def read_voltage(payload: bytes) -> FlightBatteryCommand | None:
+    """Return the voltage of the flight battery; None: not measured."""
     (hundredths,) = _ANALOG.unpack_from(payload)
-    return float(hundredths) / 100
+    return FlightBatteryCommand.from_data({"voltage": hundredths / 100}) if hundredths else None
 
 
 def read_fix(payload: bytes) -> LocationCommand | None:
@@ -149,13 +151,20 @@ def read_curves(settings: Mapping[int, bytes]) -> tuple[StickCurve, StickCurve]:
 
 def read_surfaces(payload: bytes) -> tuple[int, int, int]:
     """Return the servos of ailerons, elevator and rudder of the mixer AIRPLANE, us."""
-    servos = _SERVOS.unpack_from(payload)
+    servos = _pulses(_SERVOS.unpack_from(payload))
     return servos[3], servos[6], servos[5]
 
 
 def read_motor(payload: bytes) -> int:
     """Return the pulse of the first motor, us."""
-    return int.from_bytes(payload[:2], "little")
+    (motor,) = _pulses(_MOTOR.unpack_from(payload))
+    return motor
+
+
+def _pulses(values: tuple[int, ...]) -> tuple[int, ...]:
+    if max(values) > MAX_PULSE_US:
+        raise ValueError(f"pulses {values}")
+    return values
 
 
 def pack_sticks(sticks_us: Sequence[int]) -> bytes:

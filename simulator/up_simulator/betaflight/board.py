@@ -8,6 +8,7 @@ import socket
 import subprocess
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,7 +23,13 @@ from up_simulator.betaflight.packets import (
     pack_sticks,
     read_servos,
 )
-from up_simulator.firmware.board import NEUTRAL_US, Channel, Pulses, ResetCause
+from up_simulator.firmware.board import (
+    NEUTRAL_US,
+    BoardCrashedError,
+    Channel,
+    Pulses,
+    ResetCause,
+)
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.imu_errors import BoardImu, ImuErrors
 from up_simulator.harness.child import Child
@@ -32,7 +39,7 @@ PROGRAM = "betaflight_SITL"
 SETTINGS = Path(__file__).with_name("settings.txt")
 SETTINGS_LIMIT_S, TRY_S, POLL_S = 30.0, 5.0, 0.02
 TRIES = 6
-FRAME_US = 20_000.0
+FRAME_US, SILENT_US = 20_000.0, 5e6
 _HOST = "127.0.0.1"
 
 
@@ -87,7 +94,10 @@ class BetaflightBoard:
         return self._now_us
 
     def run_us(self, duration_us: float) -> None:
-        """Tell the board what it feels now, and take the newest pulses."""
+        """Tell the board what it feels now, and take the newest pulses.
+
+        Raises ``BoardCrashedError`` when none come for 5 s.
+        """
         self._now_us += duration_us
         motion = self.imu.measure(self._now_us / 1e6)
         self._send(STATE_PORT, pack_state(motion, self._flight.state, self._first))
@@ -96,13 +106,13 @@ class BetaflightBoard:
             self._frame_us = self._now_us + FRAME_US
             self._send(RECEIVER_PORT, pack_sticks(sticks))
         packet = b""
-        try:
+        with suppress(BlockingIOError):
             while True:
                 packet = self._socket.recv(PWM_SIZE + 1)
-        except BlockingIOError:
-            pass
         if len(packet) == PWM_SIZE:
             self._pulses, self._pulse_us = read_servos(packet), self._now_us
+        elif 0.0 <= self._pulse_us < self._now_us - SILENT_US:
+            raise BoardCrashedError("Betaflight sends no pulses")
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
         self._sticks = self._sticks.moved(channel, round(width_us))

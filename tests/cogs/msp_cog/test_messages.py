@@ -11,6 +11,7 @@ from msp_cog.messages import UnfitError
 from msp_cog.stick_curve import StickCurve
 
 from tests.cogs.msp_cog.recorded import ANGLE, ANSWERS, ARMED, OVERRIDE, status
+from up.commands.flight_state_command import FlightBatteryCommand
 
 BOX_IDS = ANSWERS[messages.BOX_IDS]
 READERS = [
@@ -57,7 +58,8 @@ def test_the_curves_are_those_of_the_settings():
 
 def test_no_fix_and_no_voltage():
     assert messages.read_fix(bytes(18)) is None
-    assert messages.read_voltage(bytes(7) + b"\x64\x04") == 11.24
+    assert messages.read_voltage(bytes(9)) is None
+    assert messages.read_voltage(bytes(7) + b"\x64\x04") == FlightBatteryCommand(11.24)
 
 
 @pytest.mark.parametrize("read", READERS)

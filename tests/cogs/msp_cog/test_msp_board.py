@@ -7,10 +7,12 @@ from msp_cog.modules.msp_board import OVERRIDDEN_VALID
 from tests.cogs.msp_cog.recorded import ANGLE, ARMED, OVERRIDE, RECEIVER_FAILSAFE, status
 from tests.cogs.msp_cog.rig import Rig
 from up.commands.arming_commands import ArmCommand
-from up.commands.flight_state_command import FlightModeCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightModeCommand
+from up.commands.location_command import LocationCommand
 from up.commands.output_command import SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.servo_command import ServoCommand
 
 AUTO = ARMED | ANGLE | OVERRIDE
 SETPOINT = SetpointCommand(20.0, -5.0, throttle_us=1600)
@@ -57,6 +59,22 @@ def test_an_unchanged_position_is_published_once_a_second(rig):
     rig.location.subscribe(heard.append)
     rig.advance(3.0)
     assert 2 <= len(heard) <= 4
+
+
+@pytest.mark.parametrize(
+    "number", [messages.RC, messages.MOTOR, messages.SERVO, messages.ANALOG, messages.RAW_GPS]
+)
+def test_impossible_values_are_dropped_and_counted(rig, number):
+    heard = []
+    rig.up.command_executor.add_observer(lambda command, _origin: heard.append(command))
+    rig.answers[number] = b"\xff" * 32
+    rig.advance(0.5)
+    assert rig.board.counters["invalid"] >= 4
+    kinds = {RXCommand: messages.RC, ServoCommand: messages.MOTOR,
+             FlightBatteryCommand: messages.ANALOG, LocationCommand: messages.RAW_GPS}  # fmt: skip
+    for each in heard:
+        assert kinds.get(type(each)) != number
+        assert not isinstance(each, ServoCommand) or number != messages.SERVO
 
 
 def test_a_set_point_becomes_sticks_by_the_boards_curve(rig):

@@ -57,6 +57,21 @@ def test_what_is_not_for_the_mode_is_not_even_built(tmp_path):
     assert plan(tmp_path, classes).problems
 
 
+def test_a_module_of_another_board_is_left_out_with_those_that_need_it(tmp_path):
+    classes = (
+        "class One(BaseModule):\n    FLIGHT_CONTROLLERS = frozenset({'msp'})\n"
+        "class Two(BaseModule):\n    FLIGHT_CONTROLLERS = frozenset({'arduino', 'raspberry'})\n"
+        "class OfOne(BaseModule):\n    one = needs(One)\n"
+        "class OfTwo(BaseModule):\n    of = needs(Two)\n"
+        "class Both(BaseModule):\n    one, two = wants(One), wants(Two)\n"
+    )
+    found = plan(tmp_path, classes)
+    assert own(found) == ["Two", "OfTwo", "Both"] and not found.problems
+    assert reasons(found) == {"One": "other_board", "OfOne": "other_board"}
+    found = plan(tmp_path, classes, config="flight controller: msp\n")
+    assert own(found) == ["One", "OfOne", "Both"] and not found.problems
+
+
 def test_the_disabled_list_holds_for_built_in_modules_too(tmp_path):
     name = "up.providers.up_altitude_provider.UpAltitudeProvider"
     found = plan(tmp_path, "", disabled_modules=f"disabled modules:\n  - {name}\n")

@@ -18,7 +18,7 @@ from msp_cog.line_opener import open_line
 from msp_cog.messages import BOX_ANGLE, BOX_ARM, BOX_OVERRIDE, Status
 from msp_cog.poller import Poller
 from msp_cog.stick_curve import StickCurve
-from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
@@ -271,9 +271,9 @@ class MspBoard(BaseBoard):
             self.publish_servo(ServoCommand(ailerons, elevator, throttle, rudder))
 
     def _on_analog(self, payload: bytes) -> None:
-        voltage_v = messages.read_voltage(payload)
-        if voltage_v:
-            self.publish(FlightBatteryCommand(voltage_v))
+        measured = messages.read_voltage(payload)
+        if measured is not None:
+            self.publish(measured)
 
     def _on_gps(self, payload: bytes) -> None:
         now_s = self._seconds()
