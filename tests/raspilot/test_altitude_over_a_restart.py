@@ -3,7 +3,7 @@
 import pytest
 
 from raspilot.modules.navigation_estimator import NavigationEstimator
-from tests.raspilot.flight_controller_rig import BOARD, PHONE, Rig
+from tests.raspilot.flight_controller_rig import PHONE, Rig
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.location_command import LocationCommand
