@@ -70,7 +70,8 @@ class Estimator:
     @property
     def rejected(self) -> dict[str, int]:
         """Return how many fixes were rejected, by reason; ``barometer``: its jumps."""
-        return {**self._gate.rejected, "barometer": self.vertical.jumps}
+        jumps = self.vertical.jumps
+        return {**self._gate.rejected, **({"barometer": jumps} if jumps else {})}
 
     @property
     def is_in_flight(self) -> bool:
