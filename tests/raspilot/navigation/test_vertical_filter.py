@@ -62,11 +62,12 @@ def test_held_it_follows_the_weather_in_an_hour():
     assert 0.0 < level.error_m < 7.0
 
 
-def test_an_offset_belongs_to_its_barometer():
+@pytest.mark.parametrize("other_m", [-80.0, PRESSURE_M + 4.0])
+def test_an_offset_belongs_to_its_barometer(other_m):
     level = Level(fix_m=6.0).fly(60, 0.0)
-    level.fly(10, 0.0, -80.0, "sensor")
+    level.fly(10, 0.0, other_m, "sensor")
     assert level.error_m == pytest.approx(6.0, abs=0.5)
-    assert level.filter.held_offset_m == pytest.approx(-86.0, abs=0.5)
+    assert level.filter.held_offset_m == pytest.approx(other_m - 6.0, abs=0.5)
     assert level.fly(10, 0.0).error_m == pytest.approx(6.0, abs=0.7)
 
 
