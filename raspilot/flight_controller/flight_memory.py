@@ -81,8 +81,11 @@ class FlightMemory:
     def follow_barometer(self, source: str, offset_m: float) -> None:
         """Save another offset, so that heights above home are the same after a restart."""
         saved = self.values.barometer
-        is_same = saved is not None and saved.source == source
-        if not is_same or abs(offset_m - saved.offset_m) > MAX_OFFSET_CHANGE_M:
+        if (
+            saved is None
+            or saved.source != source
+            or abs(offset_m - saved.offset_m) > MAX_OFFSET_CHANGE_M
+        ):
             self.update(barometer=BarometerOffset(source, offset_m))
 
     def _save(self) -> None:
