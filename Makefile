@@ -3,12 +3,12 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
-PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground flightlog/up_flightlog \
+PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground flightlog/up_flightlog mavlink/up_mavlink \
 	simulator/up_simulator arduino/bench/up_rig
 COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=
-MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
+MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . mavlink $(COGS)))
 SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml \
 	$(wildcard $(addsuffix /*/registered_modules.yml,$(COGS)))
 TEST ?=
@@ -46,12 +46,12 @@ $(PY):
 
 # What a user needs: the program, the simulator, the cogs of the Cogfile.
 $(VENV)/.run-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) sim,ground,log,keys
+	@tools/install $(PY) sim,ground,log,keys,mavlink
 	@touch $@
 
 # What a developer needs besides.
 $(VENV)/.dev-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) dev,sim,ground,log
+	@tools/install $(PY) dev,sim,ground,log,mavlink
 	@touch $@ $(VENV)/.run-ready
 
 $(WEB): ground/package-lock.json tools/web_assets
@@ -96,7 +96,7 @@ check-python: $(VENV)/.dev-ready
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
 $(VENV)/.bench-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) bench,dev,sim,ground,log
+	@tools/install $(PY) bench,dev,sim,ground,log,mavlink
 	@touch $@ $(VENV)/.run-ready $(VENV)/.dev-ready
 
 bench: $(VENV)/.bench-ready $(WEB)

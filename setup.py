@@ -16,6 +16,7 @@ SOURCES = {
     "up_ground": "ground",
     "up_simulator": "simulator",
     "up_rig": "arduino/bench",
+    "up_mavlink": "mavlink",
 }
 
 
@@ -76,6 +77,7 @@ setup(
         "ground": ["autobahn>=24.4"],
         "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
+        "mavlink": ["pymavlink>=2.4.41"],
         # To make certificates; TLS itself is in Python. Debian 12 has 38.
         "tls": ["cryptography>=38"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
@@ -94,6 +96,9 @@ setup(
             "ruff>=0.6",
             "mypy>=1.11",
             "import-linter>=2.0",
+            # Peers of MAVLink; tools/install adds MAVProxy without its graphics.
+            "mavsdk>=4.1; platform_machine == 'x86_64'",
+            "defusedxml>=0.7",
             "types-PyYAML",
             "types-psutil",
             "types-pyserial",

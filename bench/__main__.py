@@ -16,6 +16,7 @@ SUBJECTS = {
     "cascade": "the control loop's arithmetic",
     "latency": "sensor to actuator through the running daemon",
     "link": "data of the uplink at IP level, and CPU of packed telemetry",
+    "mavlink": "CPU of a MAVLink client at 100 messages a second, and the delay of an answer",
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
     "recorder": "what recording the flight costs",

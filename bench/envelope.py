@@ -100,6 +100,7 @@ def accepted(count: int) -> int:
     _, answer = air.answer(ground.hello())
     bodies = [ground.seal(b'{"name":"up.arm","id":"%d"}' % number) for number in range(8)]
     bodies += [ground.hello(), answer, air.seal_frame(b"{}"), air.seal_message(b"{}")]
+    bodies.append(air.seal_frame(b"\x01key\x07"))
     found = 0
     for number in range(count):
         body = bytearray(bodies[number % len(bodies)])

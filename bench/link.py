@@ -28,10 +28,10 @@ SECONDS, QUICK_SECONDS = 60.0, 12.0
 ROUNDS, CALLS = 5, 400
 LIMIT_S = 180.0
 FLIGHTS = (
-    ("10 Hz, everything shown", "watched", None, 11.0),
-    ("budget 5 MB/h", "watched", 5.0, 5.0),
-    ("budget 2.7 MB/h", "watched", 2.7, 2.7),
-    ("no ground station", "unwatched", None, 0.2),
+    ("10 Hz, everything shown", "watched", None, 11.0, 9.9),
+    ("budget 5 MB/h", "watched", 5.0, 5.0, 4.0),
+    ("budget 2.7 MB/h", "watched", 2.7, 2.7, 4.0),
+    ("no ground station", "unwatched", None, 0.2, 0.0),
 )
 SENT_US, RECEIVED_US = 100.0, 30.0
 
@@ -41,17 +41,18 @@ def rows(quick: bool = False) -> Iterable[Row]:
     for tool in ("unshare", "ip", "nft"):
         if os.geteuid() or shutil.which(tool) is None:
             raise LeftOutError(f"the uplink's data: needs root and {tool}")
-    for what, watched, budget, limit in FLIGHTS:
+    for what, watched, budget, limit, least_hz in FLIGHTS:
         flights = {each: fly(watched, each, budget, quick) for each in ("protected", "plain")}
         ours, plain = (each["mb_per_hour"] for each in flights.values())
+        rate_hz = flights["protected"]["frames_hz"]
         yield Row(
             f"uplink at IP level, all layers, {what}",
-            f"{ours:.2f} MB/h, {flights['protected']['frames_hz']:.1f} frames/s",
+            f"{ours:.2f} MB/h, {rate_hz:.1f} frames/s",
             "plain",
             f"{plain:.2f} MB/h, {flights['plain']['frames_hz']:.1f} frames/s",
             f"{ours / plain:.2f}x",
-            target=f"<= {limit:g} MB/h",
-            met=ours <= limit,
+            target=f"<= {limit:g} MB/h" + (f" at {least_hz:g} Hz" if least_hz else ""),
+            met=ours <= limit and rate_hz >= least_hz,
         )
 
 

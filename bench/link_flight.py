@@ -23,7 +23,7 @@ from up_simulator.demo.main import ROOT, read_options
 SETTLE_S = 12.0
 TABLE = "inet link"
 AIRCRAFT = "default"
-FRAME_BYTES = 100
+FRAME_BYTES = {"protected": 100, "plain": 60}
 """A packet from the aircraft with a frame is larger, a heartbeat is smaller."""
 LOAD_GUARD = ("load_guard.LoadGuard", "system_state_provider.SystemStateProvider")
 
@@ -53,7 +53,7 @@ class MeteredFlight(DemoFlight):
         path.write_text(yaml.safe_dump(config), encoding="utf-8")
         disabled = ", ".join(f"load_guard_cog.modules.{name}" for name in LOAD_GUARD)
         (folder / "disabled_modules.yml").write_text(f"disabled modules: [{disabled}]\n")
-        count_port(ports.airborne)
+        count_port(ports.airborne, FRAME_BYTES["protected" if self.is_protected else "plain"])
 
 
 def certificates(folder: Path) -> Path:
@@ -69,11 +69,11 @@ def nft(*words: str) -> str:
     return subprocess.run(["nft", "-j", *words], check=True, capture_output=True, text=True).stdout
 
 
-def count_port(port: int) -> None:
+def count_port(port: int, frame_bytes: int) -> None:
     """Count the packets from and to a TCP port; on the loopback each passes `input` once."""
     subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
     nft(f"add table {TABLE}; add chain {TABLE} c {{ type filter hook input priority 0; }}")
-    for rule in (f"sport {port}", f"dport {port}", f"dport {port} meta length > {FRAME_BYTES}"):
+    for rule in (f"sport {port}", f"dport {port}", f"dport {port} meta length > {frame_bytes}"):
         nft(f"add rule {TABLE} c tcp {rule} counter")
 
 

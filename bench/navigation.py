@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bench.navigation_cost import cost_rows
 from bench.navigation_flight import (
@@ -29,6 +29,7 @@ from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.flight import ScenarioFlight
 from up_simulator.scenario.initial_conditions import WeatherPart
+from up_simulator.scenario.scenario import GpsPart, Scenario
 
 SEEDS, QUICK_SEEDS = 10, 1
 RANDOM_FLIGHTS, QUICK_RANDOM_FLIGHTS = 40, 4
@@ -63,19 +64,23 @@ class Target:
 
 LOITER, LEG = "LOITER 50 m, radius rms", "leg, cross track rms from the commanded line"
 STOPPED = "motor stopped in {}, s until logged", "motor stopped in {}, least airspeed over stall"
+EXACT = "LOITER 50 m, radius rms", "leg, cross track rms"
 TARGETS = {
     f"{LOITER}, GPS frame": Target(1.5, 2.4),
     f"{LOITER}, truth": Target(2.0, 2.5),
     f"{LEG}, GPS frame": Target(1.5, 1.8),
     "height rms, GPS frame": Target(1.8, 2.8),
     "height above home rms with barometer, truth": Target(1.0, 2.5),
+    "height above home rms with sensors, truth": Target(1.0, 2.5),
     "wind error after two circles, m/s": Target(1.0, 1.0),
     "wind direction error after two circles, deg": Target(15.0, 15.0),
     "position error after 30 s without fixes": Target(30.0, 60.0, of_worst=True),
     "the same over its stated deviation": Target(2.0, 2.0, of_worst=True),
     "height error after 30 s without fixes": Target(12.0, 40.0, of_worst=True),
-    "exact 10 Hz GPS: LOITER 50 m, radius rms": Target(0.3, 0.8),
-    "exact 10 Hz GPS: leg, cross track rms": Target(0.3, 0.3),
+    f"exact 10 Hz GPS: {EXACT[0]}": Target(0.3, 0.8),
+    f"exact 10 Hz GPS: {EXACT[1]}": Target(0.3, 0.3),
+    f"u-blox 10 Hz, GPS frame: {EXACT[0]}": Target(0.6, 1.6),
+    f"u-blox 10 Hz, GPS frame: {EXACT[1]}": Target(0.6, 0.6),
     "RETURN, s until home": Target(HOME_STOP_S - AWAY_S, HOME_STOP_S - AWAY_S, of_worst=True),
     "RETURN, least airspeed over stall": Target(1.2, 1.2, of_worst=True, is_least=True),
     "RETURN, least height above home, m": Target(-10.0, -10.0, of_worst=True, is_least=True),
@@ -110,6 +115,8 @@ def plan() -> Iterable[tuple[Callable[[int, str, str], Figures], str, str]]:
             yield hold, controller, air
             yield hold_with_barometer, controller, air
             yield hold_with_exact_gps, controller, air
+            yield hold_with_receiver, controller, air
+            yield hold_with_sensors, controller, air
         yield come_home, controller, "against 7.7 m/s"
 
 
@@ -173,6 +180,11 @@ def height_above_home_errors(samples: list[Sample]) -> list[float]:
     return [error + each.home_error_m for error, each in zip(errors, samples, strict=False)]
 
 
+def airspeed_errors(samples: list[Sample]) -> list[float]:
+    """Return the errors of the estimated airspeed, m/s."""
+    return [each.state.airspeed_m_s - each.truth.airspeed_m_s for each in samples if each.state]
+
+
 def hold(seed: int, controller: str, air: str) -> Figures:
     """LOITER, a leg across the wind, 30 s without fixes, a stopped motor; no barometer."""
     events = (
@@ -196,6 +208,7 @@ def hold(seed: int, controller: str, air: str) -> Figures:
         f"{LEG}, truth": rms(line_errors(leg, 0.0)),
         "height rms, GPS frame": rms(height_errors(circling, 1.0)),
         "height rms, truth": rms(height_errors(circling, 0.0)),
+        "airspeed rms": rms(airspeed_errors(circling)),
         "LOITER 50 m, bank, standard deviation, deg": statistics.pstdev(
             each.truth.roll_deg for each in circling
         ),
@@ -261,23 +274,49 @@ def hold_with_barometer(seed: int, controller: str, air: str) -> Figures:
 
 def hold_with_exact_gps(seed: int, controller: str, air: str) -> Figures:
     """LOITER and a leg with ten exact fixes a second."""
+    flown = fly(_circle_and_leg(seed, controller, air), _exact_gps)
+    return _radius_and_leg("exact 10 Hz GPS", flown)
+
+
+def hold_with_receiver(seed: int, controller: str, air: str) -> Figures:
+    """The same with a u-blox receiver on a serial port (gps cog), whose error wanders by 0.7 m."""
+    flown = fly(replace(_circle_and_leg(seed, controller, air), gps=GpsPart()))
+    figures = _radius_and_leg("u-blox 10 Hz, GPS frame", flown, 1.0)
+    return figures | _radius_and_leg("u-blox 10 Hz, truth", flown)
+
+
+def hold_with_sensors(seed: int, controller: str, air: str) -> Figures:
+    """LOITER with barometer and pitot tube at the I2C bus (sensors cog), without the phone's."""
+    scenario = scenario_of(seed, controller, AIRS[air], CRUISE_S, mode_at(LOITER_S, "LOITER"))
+    scenario = replace(scenario, sensors=("bmp388", "ms4525do"))
+    circling = fly(scenario, _no_barometer).between(CIRCLING_S, CRUISE_S)
+    return {
+        "height above home rms with sensors, truth": rms(height_above_home_errors(circling)),
+        "airspeed rms with sensors": rms(airspeed_errors(circling)),
+    }
+
+
+def _circle_and_leg(seed: int, controller: str, air: str) -> Scenario:
     events = (
         mode_at(LOITER_S, "LOITER"),
         mode_at(EXACT_CRUISE_S, "CRUISE"),
         course_at(EXACT_CRUISE_S + 1.0, 90.0),
     )
-    flown = fly(scenario_of(seed, controller, AIRS[air], EXACT_END_S, *events), _exact_gps)
+    return scenario_of(seed, controller, AIRS[air], EXACT_END_S, *events)
+
+
+def _radius_and_leg(what: str, flown: Flown, wander: float = 0.0) -> Figures:
     circling = flown.between(CIRCLING_S, EXACT_CRUISE_S)
     leg = flown.between(EXACT_LEG_S, EXACT_END_S)
     return {
-        "exact 10 Hz GPS: LOITER 50 m, radius rms": rms(radius_errors(circling, 0.0)),
-        "exact 10 Hz GPS: leg, cross track rms": rms(line_errors(leg, 0.0)),
+        f"{what}: {EXACT[0]}": rms(radius_errors(circling, wander)),
+        f"{what}: {EXACT[1]}": rms(line_errors(leg, wander)),
     }
 
 
 def _exact_gps(flight: ScenarioFlight) -> None:
     assert flight.participants.phone is not None
-    flight.participants.phone.sensors.use_exact_receiver(0.1)
+    flight.participants.phone.sensors.use_receiver(0.1)
 
 
 def come_home(seed: int, controller: str, _air: str) -> Figures:

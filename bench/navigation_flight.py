@@ -160,7 +160,7 @@ class _Probe:
     def __init__(self, flight: ScenarioFlight, daemon: InProcessRaspilot) -> None:
         assert daemon.up is not None and flight.participants.phone is not None
         self._flight = flight
-        self._sensors = flight.participants.phone.sensors
+        self._sensors = flight.participants.receiver or flight.participants.phone.sensors
         estimator = daemon.module("NavigationEstimator")
         assert isinstance(estimator, NavigationEstimator)
         self._estimator = estimator

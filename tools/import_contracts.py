@@ -21,11 +21,12 @@ ARROWS: dict[str, set[str]] = {
     "raspilot": {"up"},
     "up_runner": {"up"},
     "up_flightlog": {"up"},
-    "up_ground": {"up", "up_flightlog"},
+    "up_mavlink": {"up"},
+    "up_ground": {"up", "up_flightlog", "up_mavlink"},
     "up_proxy": {"up"},
     # It runs daemon, ground station and the compiled firmware in its own process.
     # Raspilot and its cogs are loaded like any application, never imported.
-    "up_simulator": {"up", "up_ground", "up_flightlog", "up_rig"},
+    "up_simulator": {"up", "up_ground", "up_flightlog", "up_mavlink", "up_rig"},
     "up_rig": set(),
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
@@ -75,6 +76,8 @@ NAMES_ALLOWED = (
     ),
     # A frame of telemetry as it was sent.
     *(("protocols/packed_dictionary.py", word) for word in ("arduino", "android")),
+    # Fields of telemetry as they are in each frame.
+    ("protocols/attitude_frame.py", '"arduino"'),
 )
 
 
@@ -102,7 +105,9 @@ def cogs() -> dict[str, set[str]]:
             for name in required
             if name.startswith("raspilot-")
         }
-        found[setup.parent.name] = {"up"} | others
+        # Packages of this distribution that one cog shares with the ground station.
+        shared = {f"up_{setup.parent.name.removesuffix('_cog')}"} & set(ARROWS)
+        found[setup.parent.name] = {"up"} | others | shared
     return found
 
 

@@ -14,10 +14,12 @@ from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
-from up.log.limits import Once
+from up.log.limits import Limited, Once
 from up.system.clock import Timer, cancel
 
 DEFAULT_PERIOD_MS = 100.0
+LOG_INTERVAL_S = 10.0
+"""A ground that sets the period often must not fill the log."""
 IDLE_POLL_S = 2.0
 """Polling period for a subscriber that starts to want telemetry without a new link."""
 Conflict = Callable[[str, str, str], object]
@@ -73,6 +75,7 @@ class TelemetryController(BaseStartedModule):
         return merge(self._contents(), self._on_conflict)
 
     def on_init(self) -> None:
+        self._limited = Limited(self.context.reactor, LOG_INTERVAL_S)
         executor = self.up.command_executor
         executor.register_command(TelemetryFrequencyCommand, self._on_period)
         executor.register_command(PanicCommand, self._on_panic)
@@ -85,6 +88,7 @@ class TelemetryController(BaseStartedModule):
 
     def on_stop(self) -> None:
         cancel(self._timer)
+        self._limited.stop()
 
     def _on_period(self, command: TelemetryFrequencyCommand) -> None:
         if command.period_ms < self.panic_delay_ms:
@@ -94,8 +98,11 @@ class TelemetryController(BaseStartedModule):
                 Code.OVERLOADED,
             )
         self.wanted_period_ms = command.period_ms
-        self.log.info(
-            "telemetry every {period_ms:.0f} ms", period_ms=command.period_ms, code="period_changed"
+        self._limited.log(
+            self.log.info,
+            "telemetry every {period_ms:.0f} ms",
+            period_ms=command.period_ms,
+            code="period_changed",
         )
         self._reschedule()
 

@@ -19,6 +19,7 @@ from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
 from up_ground.key_store import KeyStore
+from up_ground.mavlink_verb import add_mavlink
 from up_ground.mission_verb import add_mission
 from up_ground.page_options import add_page_options
 from up_ground.pair import add_pair
@@ -37,6 +38,7 @@ examples
   up-ground send up.flight_mode.set mode=RETURN
   up-ground send arduino.pids.tunings request=true  prints the active gains
   up-ground mission upload field.plan               then: mission start
+  up-ground mavlink                                 QGroundControl uses this link
   up-ground serve                                   the page for browsers
   up-ground replay last                             a recorded flight, there
   up-ground control request                         requests it of its owner
@@ -106,6 +108,7 @@ def make_parser(environ: Mapping[str, str]) -> OptionParser:
     _add_send(verbs)
     _add_control(verbs)
     add_mission(verbs)
+    add_mavlink(verbs)
     for verb in dict.fromkeys(verbs.choices.values()):
         _add_connection(verb)
     _add_serve(verbs)

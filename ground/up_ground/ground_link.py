@@ -14,7 +14,7 @@ from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
-from up.protocols.binary_line import HANDSHAKE, PACKED, PROTECTED, to_body
+from up.protocols.binary_line import HANDSHAKE, PACKED, PROTECTED, SHORT, to_body
 from up.protocols.general_message import GeneralMessage, decode
 from up.protocols.packed_telemetry import UnknownKeyError, Unpacker
 from up.protocols.pairing import Pairing
@@ -199,7 +199,7 @@ class GroundLink:
         """Return the body of a line, as far as this device may take it; raises ValueError."""
         if self._security is not None:
             return self._security.open(line)
-        if line[0] in (PROTECTED, HANDSHAKE):
+        if line[0] in (PROTECTED, HANDSHAKE, SHORT):
             self.status.unprotected += 1
             return None
         return to_body(line)
@@ -290,7 +290,11 @@ class GroundLink:
         if not self._settings.direct:
             token = self._token if self._wanted is Seat.COMMAND else None
             hello = Hello(
-                self._settings.aircraft, Access(self._wanted.value), token, packed=True
+                self._settings.aircraft,
+                Access(self._wanted.value),
+                token,
+                packed=True,
+                attitude=True,
             ).encode()
         return GroundProtocol(self._reactor, self, hello)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from up.protocols.binary_line import HANDSHAKE, PROTECTED, to_body, to_line
+from up.protocols.binary_line import HANDSHAKE, PROTECTED, SHORT, to_body, to_line
 from up.protocols.encrypted_stream import is_available
 from up.protocols.envelope import EnvelopeError
 from up.protocols.ground_session import GroundSession
@@ -63,7 +63,7 @@ class LinkSecurity:
         """
         try:
             body = to_body(line)
-            if body[0] == PROTECTED:
+            if body[0] in (PROTECTED, SHORT):
                 return self._session.open(body)
             if body[0] == HANDSHAKE:
                 self._on_handshake(body)

@@ -17,13 +17,13 @@ from up.errors import UserError
 from up.mission.items import Border, MissionItem, PlanItem
 from up.mission.plan import PLAN, WAYPOINTS, Plan, PlanError, PlanProblem, position
 from up.mission.plan_forms import MAX_CHARACTERS, read_plan, write_plan
+from up.mission.plan_transfer import PlanOutcome
+from up.mission.reliable_requests import NO_ANSWER
 from up.output import echo
 from up_ground.arguments import settings_of
 from up_ground.mission_tasks import MissionStatus, StartMission, TransferTask
 from up_ground.one_shot_task import EXIT_NO_ANSWER, print_error
 from up_ground.one_shot_task import run as run_task
-from up_ground.plan_transfer import PlanOutcome
-from up_ground.reliable_requests import NO_ANSWER
 from up_ground.settings import Seat
 from up_ground.token_store import TokenStore, state_folder
 

@@ -13,9 +13,9 @@ from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightModeCommand
 from up.commands.mission_commands import FENCE, MISSION, MissionItemCommand
 from up.mission.items import PlanItem
+from up.mission.plan_transfer import PlanOutcome, PlanTransfer
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.command_task import CommandTask
-from up_ground.plan_transfer import PlanOutcome, PlanTransfer
 from up_ground.send import Send
 
 NOT_USED = frozenset({"plan_invalid", "plan_incomplete", "plan_changed", "plan_not_saved"})

@@ -12,11 +12,11 @@ from twisted.internet.defer import Deferred
 from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
 from up.output import echo, program_error
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import ASK_INTERVAL_S, ControlStatus, LinkState, control_status
-from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.token_store import TokenStore
 

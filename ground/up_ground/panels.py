@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import textwrap
 
+from up.commands.event_rules import UNKNOWN
 from up.commands.telemetry_schema import RULES
 from up_ground.screen_buffer import PanelWriter, Style
 from up_ground.status_text import (
-    UNKNOWN,
     acting_mode,
     busy_text,
     flag_text,

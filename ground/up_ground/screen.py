@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from up.sanitize_text import sanitize_text
 from up_ground.link_status import LinkStatus
 from up_ground.panels import (
     NAVIGATION_ROWS,
@@ -16,7 +17,6 @@ from up_ground.panels import (
     draw_power,
     has_navigation,
 )
-from up_ground.sanitize_text import sanitize_text
 from up_ground.screen_buffer import PanelWriter, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
 from up_ground.status_text import (

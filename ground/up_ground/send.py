@@ -10,10 +10,10 @@ from typing import Any, NoReturn
 from up.cli.cli_error import UsageError
 from up.cli.option_parser import EXIT_FAILED, EXIT_OK
 from up.protocols.general_message import GeneralMessage, encode
+from up.sanitize_text import sanitize_text
 from up_ground.catalogue import requested_content
 from up_ground.command_task import CommandTask
 from up_ground.one_shot_task import EXIT_NO_ANSWER
-from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME as TELEMETRY
 from up_ground.token_store import TokenStore

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
+from up.commands.event_rules import UNKNOWN, fill
 from up.commands.telemetry_schema import MODE_REASONS, RULES
 from up_ground.link_status import LinkStatus
 from up_ground.settings import Seat
 from up_ground.telemetry import Telemetry
-
-UNKNOWN = "--"
 
 
 def number_text(value: float | None, decimals: int = 1, width: int = 0, sign: bool = False) -> str:
@@ -38,22 +35,6 @@ def age_text(age_s: float | None) -> str:
 def flag_text(value: bool | None, yes: str = "yes", no: str = "no") -> str:
     """Return the word for a flag."""
     return UNKNOWN if value is None else (yes if value else no)
-
-
-def fill(text: str, telemetry: Telemetry, **known: object) -> str:
-    """Return a text of schema/ with its values: ``{value}``, ``{a.field or another}``."""
-
-    def value(found: re.Match[str]) -> str:
-        if found[1] in known:
-            return str(known[found[1]])
-        for path in (name.split(".") for name in found[1].split(" or ")):
-            number = telemetry.number(*path)
-            shown = telemetry.text(*path) if number is None else number_text(number, 0)
-            if shown is not None:
-                return shown
-        return UNKNOWN
-
-    return re.sub(r"\{([^}]+)\}", value, text)
 
 
 def busy_text(telemetry: Telemetry) -> str:

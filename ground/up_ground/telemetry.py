@@ -9,8 +9,8 @@ from typing import Any
 from up.commands.telemetry_schema import LATE_FOR_S, LATE_S, READINGS, SILENT_S
 from up.flight_log.json_message import value_at
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up_ground.one_way_delay import OneWayDelayEstimator
-from up_ground.sanitize_text import sanitize_text
 
 NAME = "up.telemetry.update"
 _MAX_GAP = 1000

@@ -7,9 +7,9 @@ from typing import Any
 
 from up.cli.option_parser import EXIT_OK
 from up.protocols.general_message import GeneralMessage, encode
+from up.sanitize_text import sanitize_text
 from up_ground.link_status import LinkState
 from up_ground.one_shot_task import EXIT_NO_ANSWER, LinkTask, print_error
-from up_ground.sanitize_text import sanitize_text
 from up_ground.screen import State, draw, render
 from up_ground.settings import Settings
 from up_ground.status_text import plain_line

@@ -144,7 +144,8 @@ class AircraftSession(Owner):
         self.air_lease.alive_s = ALIVE_S if grounds else IDLE_S
         air.expect_silence(KEEPALIVE_IDLE_S if grounds else UNWATCHED_IDLE_S)
         packed = all(each.reads_packed for each in grounds)
-        air.send(Watchers(len(grounds), int(packed)).encode())
+        attitude = packed and all(each.reads_attitude for each in grounds)
+        air.send(Watchers(len(grounds), int(packed), int(attitude)).encode())
 
     def sweep(self) -> None:
         """Send what is due: to the grounds, and to an aircraft that knows `Watchers`."""

@@ -64,6 +64,7 @@ class Connection:
         "partial",
         "paused_s",
         "queue_bytes",
+        "reads_attitude",
         "reads_packed",
         "requested_s",
         "speaks_hello",
@@ -96,6 +97,7 @@ class Connection:
         self.failure: str | None = None
         self.number = 0
         self.speaks_hello = False
+        self.reads_attitude = False
         self.reads_packed = False
         """It named packed telemetry in its hello; an aircraft: it also knows `Watchers`."""
         self.token = ""

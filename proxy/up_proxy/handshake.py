@@ -112,6 +112,7 @@ class Handshake(Owner):
         session = self._registry.session(hello.aircraft)
         connection.speaks_hello = True
         connection.reads_packed = hello.packed
+        connection.reads_attitude = hello.attitude
         if self._side is Side.AIRBORNE:
             _check_name(connection, hello.aircraft)
             lease = session.air_lease

@@ -369,6 +369,9 @@ class FlightModeManager(BaseFlightController):
         if situation is not None and name in modes:
             self._selector.check(name, replace(situation, target=target))
         self._target = target
+        if situation is not None:
+            # The mode may be selected before the next step.
+            self._situation = replace(situation, target=target)
 
     def _on_home(self, command: HomeCommand) -> None:
         self.home.set(command, self._navigation)

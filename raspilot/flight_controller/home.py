@@ -131,6 +131,8 @@ class HomeKeeper:
             raise CommandRefusedError("that point is outside the fence", detail="outside_fence")
 
     def _set(self, place: Place, cause: str) -> None:
+        if place == self.place:
+            return
         self.place = place
         self.memory.update(home=place)
         self._on_changed(place)

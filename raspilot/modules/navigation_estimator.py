@@ -9,6 +9,7 @@ from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.battery_sag import BatterySag
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
+from up.commands.airspeed_command import AirspeedCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
@@ -19,6 +20,7 @@ from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
 from up.needs import needs
 from up.providers.base_provider import BaseProvider, Reading
+from up.providers.source_arbiter import SourceArbiter
 from up.providers.up_altitude_provider import UpAltitudeProvider
 from up.providers.up_heading_provider import UpHeadingProvider
 from up.providers.up_location_provider import UpLocationProvider
@@ -26,6 +28,8 @@ from up.providers.up_orientation_provider import UpOrientationProvider
 
 ASSUMED_AGE_S = 0.8
 """Age of a fix on arrival where its source does not measure it."""
+AIRSPEED_S = 1.0
+"""How old the airspeed of a sensor may be before another one is followed."""
 LOWEST_US, RANGE_US = 1000, 1000
 UNKNOWN_HEADING_SD_DEG, UNKNOWN_WIND_SD_M_S, UNKNOWN_ALTITUDE_SD_M = 60.0, 4.0, 100.0
 MIN_COURSE_M_S = 1.0
@@ -67,6 +71,8 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.altitude.subscribe(self._on_altitude)
         self.heading.subscribe(self._on_heading)
         executor = self.up.command_executor
+        self._airspeeds = SourceArbiter(AIRSPEED_S, lambda _before, _source: None)
+        executor.register_command(AirspeedCommand, self._on_airspeed)
         executor.register_command(ServoCommand, self._on_servos)
         executor.register_command(AccelerationCommand, self._on_acceleration)
         executor.register_command(FlightStateCommand, self._on_flight_state)
@@ -163,6 +169,12 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _on_heading(self, reading: Reading[float]) -> None:
         self._is_old = True
         self.estimator.compass(reading.time_s, reading.value)
+
+    def _on_airspeed(self, command: AirspeedCommand) -> None:
+        origin, now_s = self.up.command_executor.origin, self._seconds()
+        if self._airspeeds.accepts(origin.link, origin.priority, now_s):
+            self._is_old = True
+            self.estimator.airspeed(now_s, command.airspeed_m_s)
 
     def _on_servos(self, command: ServoCommand) -> None:
         self._throttle = (command.throttle_us - LOWEST_US) / RANGE_US

@@ -36,6 +36,10 @@ FELT_BEGIN_S, FELT_END_S = 0.5, 0.2
 """How long before its arrival an acceleration was felt."""
 MEASURED_S = 2.5
 """How long the airspeed that a fix has shown is continued by the model."""
+AIRSPEED_SENSOR_R = 0.06
+"""Standard deviation, as a part and for one second, of the mean of a sensor."""
+SENSED_S = 0.5
+"""How long the airspeed of a sensor counts as measured."""
 MOVED_SD_M = 10.0
 NEW_FRAME_M = 50_000.0
 
@@ -63,6 +67,9 @@ class Estimator:
         self._velocity_m_s = (0.0, 0.0)
         self._measured: AirPoint | None = None
         self._measured_m_s = 0.0
+        self._sensed: AirPoint | None = None
+        self._sensed_m_s = 0.0
+        self._ratios: list[float] = []
         self._roll_deg = self._pitch_deg = 0.0
         self._throttle = 0.0
         self._compass_offset_rad: float | None = None
@@ -100,6 +107,17 @@ class Estimator:
         gained_m_s = self.motor.acceleration(forward_m_s2, begin, end)
         if gained_m_s is not None:
             self._change_thrust(gained_m_s)
+
+    def airspeed(self, time_s: float, airspeed_m_s: float) -> None:
+        """Take a measured true airspeed: the next fix corrects the model by its mean."""
+        newest = self._path.newest
+        if newest is None or not self.is_in_flight or not math.isfinite(airspeed_m_s):
+            return
+        modelled_m_s = math.hypot(newest.north_m_s, newest.east_m_s)
+        if abs(time_s - newest.time_s) > MAX_GAP_S or modelled_m_s <= 0.0:
+            return
+        self._ratios.append(airspeed_m_s / modelled_m_s)
+        self._sensed, self._sensed_m_s = newest, airspeed_m_s
 
     def compass(self, time_s: float, heading_deg: float) -> None:
         """Take a measured heading; it counts little: magnets and motors are near."""
@@ -247,6 +265,9 @@ class Estimator:
 
     def _measured_at(self, now: AirPoint) -> float | None:
         """Return the airspeed of the last fix, and what the model adds since."""
+        sensed = self._sensed
+        if sensed is not None and now.time_s - sensed.time_s <= SENSED_S and self.is_in_flight:
+            return self._sensed_m_s
         then = self._measured
         if then is None or now.time_s - then.time_s > MEASURED_S or not self.is_in_flight:
             return None
@@ -265,6 +286,7 @@ class Estimator:
     def _multiply(self, factor: complex) -> None:
         """Multiply the air path by a number, and divide the filter's factor by it."""
         self._path.multiply(factor)
+        self._ratios.clear()
         if self._fixed is not None:
             self._fixed = multiplied(self._fixed, factor)
         if self._horizontal is not None:
@@ -326,8 +348,11 @@ class Estimator:
         horizontal.fuse_position(*point, max(POSITION_R_M, 0.5 * (fix.accuracy_m or 0.0)))
         if velocity is not None:
             horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
+        ratios, self._ratios = self._ratios, []
         if dt > 0.0:
-            horizontal.fuse_airspeed(1.0, AIRSPEED_R / math.sqrt(dt))
+            ratio = sum(ratios) / len(ratios) if ratios else 1.0
+            deviation = AIRSPEED_SENSOR_R if ratios else AIRSPEED_R
+            horizontal.fuse_airspeed(ratio, deviation / math.sqrt(dt))
         if self._compass_offset_rad is not None:
             horizontal.fuse_offset(self._compass_offset_rad, math.radians(COMPASS_SD_DEG))
             self._compass_offset_rad = None

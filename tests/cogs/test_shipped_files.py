@@ -8,7 +8,10 @@ import pytest
 from android_cog.config import ANDROID
 from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
+from gps_cog.config import GPS
+from mavlink_cog.config import MAVLINK
 from mission_control_cog.config import MISSION_CONTROL
+from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
 
 from up.base_module import BaseModule
@@ -20,7 +23,18 @@ from up.flight_controller.profile_wire import AIRFRAME
 ROOT = Path(__file__).parents[2]
 
 
-FILES = [ANDROID, ARDUINO, BLACK_BOX, DISCOVERY, MISSION_CONTROL, PIDS, AIRFRAME]
+FILES = [
+    ANDROID,
+    ARDUINO,
+    BLACK_BOX,
+    DISCOVERY,
+    GPS,
+    MAVLINK,
+    MISSION_CONTROL,
+    PIDS,
+    SENSORS,
+    AIRFRAME,
+]
 COGS = sorted(path.name for path in (ROOT / "cogs").glob("*_cog"))
 
 

@@ -23,6 +23,8 @@ WORDS = {
     "imu_errors": "noise, bias, drift while it warms up, vibration",
     "receiver": "lost and back",
     "gps": "outage of the GPS",
+    "gps_receiver": "no fix",
+    "i2c": "every transfer fails",
     "channel_lost": "one wire",
     "channel_back": "one wire",
     "reset": "reset by watchdog, power, button or brown-out",

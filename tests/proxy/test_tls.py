@@ -114,10 +114,11 @@ def test_an_aircraft_over_tls_is_told_of_its_watchers(certificates):
     with bench(certificates) as b:
         air_port, _ = b.proxy.tls_ports
         air = TLSPeer(b, air_port, context_of(device(certificates, "glider-1")))
-        air.say("UP1 aircraft=glider-1 packed=1\n").expect("UP1 watch grounds=0 packed=1\n")
+        air.say("UP1 aircraft=glider-1 packed=1\n")
+        air.expect("UP1 watch grounds=0 packed=1 attitude=1\n")
         b.ground("UP1 aircraft=glider-1 packed=1\n").expect("seat=command")
         b.pass_time(0.5)
-        air.expect("UP1 watch grounds=1 packed=1\n")
+        air.expect("UP1 watch grounds=1 packed=1 attitude=0\n")
         assert not air.closed
 
 

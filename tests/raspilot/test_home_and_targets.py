@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from twisted.logger import globalLogPublisher
 
 from tests.raspilot.navigation_rig import (
     FRAME,
@@ -69,6 +70,20 @@ class TestHome:
         rig.navigation.state = replace(STANDING, position=Point(900.0, 0.0))
         rig.setpoint()
         assert self.home(rig) == pytest.approx((100.0, 50.0), abs=0.01)
+
+    def test_a_command_that_changes_nothing_is_accepted_and_not_logged_again(self, rig):
+        codes = []
+
+        def observer(event):
+            codes.append(event.get("code"))
+
+        globalLogPublisher.addObserver(observer)
+        try:
+            for _ in range(300):
+                assert rig.outcome(HomeCommand(48.0, 17.0)) == [None]
+        finally:
+            globalLogPublisher.removeObserver(observer)
+        assert codes.count("home_set") <= 1
 
     def test_a_command_far_away_or_without_a_position_is_refused(self, tmp_path):
         rig = NavigationRig(tmp_path)

@@ -8,6 +8,7 @@ from twisted.internet.task import Clock
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.motor_watch import SETTLING_S
 from tests.support.system import build_up
+from up.commands.airspeed_command import AirspeedCommand
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.heading_command import HeadingCommand
@@ -21,6 +22,7 @@ from up.earth import MEAN_RADIUS_M
 
 BOARD = Origin("arduino", Role.BOARD, 10)
 PHONE = Origin("android", Role.SENSOR, 0)
+PITOT, SPARE = Origin("pitot", Role.SENSOR, 20), Origin("spare", Role.SENSOR, 10)
 SPEED_M_S, RADIUS_M, DELAY_S = 11.0, 60.0, 0.5
 METRES_PER_DEG = math.radians(MEAN_RADIUS_M)
 
@@ -192,3 +194,22 @@ def test_an_airframe_without_motor_has_none_that_stops(tmp_path):
     rig.fly(40)
     rig.feel(-0.9)
     assert rig.module.telemetry_content["navigation"]["motor_stopped"] is False
+
+
+def test_the_airspeed_of_the_sensor_with_the_highest_priority_corrects_the_model(rig):
+    rig.fly(40)
+    before = rig.module.state
+    assert before.airspeed_m_s == pytest.approx(SPEED_M_S, abs=0.5)
+    for _ in range(300):
+        rig.publish(AirspeedCommand(SPEED_M_S + 2.0), PITOT)
+        rig.publish(AirspeedCommand(5.0), SPARE)
+        rig.fly(0.1)
+    state = rig.module.state
+    assert state.measured_airspeed_m_s == SPEED_M_S + 2.0
+    assert state.airspeed_m_s - before.airspeed_m_s > 0.7
+    assert state.airspeed_sd_m_s < before.airspeed_sd_m_s
+    rig.fly(1.0)
+    assert rig.module.state.measured_airspeed_m_s != SPEED_M_S + 2.0
+    for value in (math.nan, math.inf):
+        rig.module.estimator.airspeed(rig.clock.seconds(), value)
+    assert math.isfinite(rig.module.state.airspeed_m_s)

@@ -3,6 +3,7 @@
 import pytest
 from twisted.internet.defer import Deferred
 from twisted.internet.task import Clock
+from twisted.logger import globalLogPublisher
 
 from tests.support.system import build_up, started
 from tests.up.commands.samples import Log
@@ -13,7 +14,7 @@ from up.commands.refusal import Code
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
-from up.telemetry_controller import TelemetryController
+from up.telemetry_controller import LOG_INTERVAL_S, TelemetryController
 
 
 class Speaker(BaseModule):
@@ -85,6 +86,23 @@ def test_the_ground_sets_the_period(rig):
     rig.frames.clear()
     rig.run(3.1)
     assert len(rig.frames) == 4, "the one that was due tells the new period"
+
+
+def test_a_period_that_is_set_thousands_of_times_does_not_fill_the_log(rig):
+    lines = []
+
+    def observer(event):
+        lines.append(event.get("code"))
+
+    globalLogPublisher.addObserver(observer)
+    try:
+        for number in range(3000):
+            rig.period(100 + number % 2)
+            rig.run(0.01)
+    finally:
+        globalLogPublisher.removeObserver(observer)
+    assert 1 <= lines.count("period_changed") <= 2 + 30 / LOG_INTERVAL_S
+    assert rig.controller.period_ms == 101
 
 
 def test_a_ground_that_sets_the_period_again_and_again_starves_nobody(rig):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from up.commands.airspeed_command import AirspeedCommand
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.answer_commands import AckCommand, CommandAnsweredCommand, NackCommand
 from up.commands.arming_commands import ArmCommand, DisarmCommand
@@ -38,6 +39,7 @@ from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyC
 
 BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     AckCommand,
+    AirspeedCommand,
     AltitudeCommand,
     ArmCommand,
     CommandAnsweredCommand,

@@ -27,11 +27,12 @@ class FlightStateCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class FlightBatteryCommand(BaseCommand):
-    """The voltage of the flight battery under its present load."""
+    """The voltage of the flight battery under its present load, and the load where it is known."""
 
     NAME: ClassVar[str] = "up.flight_battery.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD, Role.SENSOR})
     voltage_v: float = value(key="voltage", minimum=0, maximum=66, unit="V")
+    current_a: float | None = value(None, key="current", minimum=-1000, maximum=1000, unit="A")
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,13 +8,17 @@ from typing import ClassVar
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 
+FIXES = ("2d", "3d", "dgps", "rtk")
+"""Kinds of a fix: without altitude, with it, with corrections, by the phase of the carrier."""
+
 
 @dataclass(frozen=True, slots=True)
 class LocationCommand(BaseCommand):
     """A position from a satellite receiver (thesis 3.3.5), WGS 84.
 
     ``age_ms`` is the time from the measurement until it was sent, ``satellites`` how many the fix
-    uses; None: not known.
+    uses, ``pdop`` their dilution of precision; speed and bearing are those over the ground. None:
+    not known.
     """
 
     NAME: ClassVar[str] = "up.location.update"
@@ -30,3 +34,6 @@ class LocationCommand(BaseCommand):
     required_bearing_deg: float | None = value(None, key="required_bearing", unit="deg")
     age_ms: float | None = value(None, minimum=0, maximum=60000, unit="ms")
     satellites: int | None = value(None, minimum=0, maximum=255)
+    fix: str | None = value(None, choices=FIXES)
+    pdop: float | None = value(None, minimum=0, maximum=100)
+    climb_m_s: float | None = value(None, key="climb", minimum=-200, maximum=200, unit="m/s")

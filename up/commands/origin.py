@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from up.commands.roles import Role
@@ -23,3 +24,9 @@ class Origin:
 
 
 INTERNAL = Origin("internal", Role.INTERNAL)
+_NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
+
+
+def link_name_problem(name: str) -> str:
+    """Return what is wrong with a link's name from a configuration; empty: nothing."""
+    return "" if _NAME.fullmatch(name) else f"{name!r} must be letters from a to z, digits and _"

@@ -36,6 +36,7 @@ CODES = {
     "source_unclear": "A cog has no source, or several.",
     "too_long": "The text, list or map is too long.",
     "unknown_choice": "The value is not among the permitted ones.",
+    "unsigned": "Strangers could send Commands: the link has no signatures.",
     "unknown_key": "The file has no such key.",
     "value_missing": "The key has no value.",
     "wrong_type": "Text instead of a number, a list instead of a map, and the like.",

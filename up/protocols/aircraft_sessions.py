@@ -8,8 +8,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from up.protocols import handshake
+from up.protocols.attitude_frame import is_attitude
 from up.protocols.encrypted_stream import EncryptedStream
-from up.protocols.envelope import BROADCAST, SECRET_BYTES, EnvelopeError, Stream, place_of
+from up.protocols.envelope import (
+    BROADCAST,
+    SECRET_BYTES,
+    EnvelopeError,
+    Stream,
+    place_of,
+    shortened,
+)
 from up.protocols.handshake import (
     NONCE_BYTES,
     ROLES,
@@ -167,8 +175,9 @@ class AircraftSessions:
                 del self._sessions[session.number]
 
     def seal_frame(self, payload: bytes) -> bytes:
-        """Return the protected body of telemetry, for all grounds."""
-        return self._frames.seal(payload)
+        """Return the protected body of telemetry, for all grounds; short for an attitude frame."""
+        body = self._frames.seal(payload)
+        return shortened(body) if is_attitude(payload) else body
 
     def seal_message(self, payload: bytes) -> bytes:
         """Return the protected body of another message, for all grounds."""

@@ -7,9 +7,9 @@ as it is.
 
 from __future__ import annotations
 
-PACKED, PROTECTED, HANDSHAKE = 0x01, 0x02, 0x03
+PACKED, PROTECTED, HANDSHAKE, SHORT = 0x01, 0x02, 0x03, 0x04
 """The first byte of such a line."""
-TYPES = frozenset({PACKED, PROTECTED, HANDSHAKE})
+TYPES = frozenset({PACKED, PROTECTED, HANDSHAKE, SHORT})
 _ESC, _LF, _FLIP = b"\x1b", b"\n", 0x40
 _ESC_CODED, _LF_CODED = _ESC + bytes((_ESC[0] ^ _FLIP,)), _ESC + bytes((_LF[0] ^ _FLIP,))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import hmac
 import struct
 
-from up.protocols.binary_line import PROTECTED
+from up.protocols.binary_line import PROTECTED, SHORT
 
 SECRET_BYTES = 32
 MAC_BYTES = 16
@@ -17,6 +17,8 @@ _MAC_AT = 1 + _PLACE.size
 _BODY_AT = _MAC_AT + MAC_BYTES
 HEADER_BYTES = _BODY_AT - 1
 """Session, counter and MAC, between the type byte and the payload."""
+_SHORT_AT = _MAC_AT - 1
+"""A short body has of session and counter only the counter's last byte."""
 BROADCAST = 1 << 31
 """Set in the ids of streams to all grounds, clear in those of sessions."""
 
@@ -74,6 +76,11 @@ def place_of(body: bytes) -> tuple[int, int]:
     return session, counter
 
 
+def shortened(body: bytes) -> bytes:
+    """Return the short form of a protected body, for a reader that knows its stream."""
+    return bytes((SHORT,)) + body[_SHORT_AT:]
+
+
 class Stream:
     """One direction of one session: its sender seals bodies, its receiver opens them.
 
@@ -92,6 +99,15 @@ class Stream:
         self.counter += 1
         place = _PLACE.pack(self.session, self.counter)
         return bytes((PROTECTED,)) + place + self._protect(place, payload)
+
+    def restored(self, body: bytes) -> bytes:
+        """Return the protected body of a short one: the next one whose counter ends so.
+
+        A body that was taken before, or that 256 others preceded unread, is then forged.
+        """
+        next_ = self.counter + 1
+        counter = next_ + (body[1] - next_) % 256 if len(body) > 1 else 0
+        return bytes((PROTECTED,)) + _PLACE.pack(self.session, counter) + body[2:]
 
     def open(self, body: bytes) -> bytes:
         """Return the payload; raises EnvelopeError: malformed, forged or replayed."""

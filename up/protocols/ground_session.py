@@ -6,6 +6,7 @@ import secrets
 from collections.abc import Callable
 
 from up.protocols import handshake
+from up.protocols.binary_line import SHORT
 from up.protocols.encrypted_stream import EncryptedStream
 from up.protocols.envelope import BROADCAST, SECRET_BYTES, EnvelopeError, Stream, place_of
 from up.protocols.handshake import (
@@ -18,6 +19,8 @@ from up.protocols.handshake import (
     SessionKeys,
 )
 from up.protocols.handshake import broadcast_streams as streams_of
+
+_SHORT = bytes((SHORT,))
 
 
 class GroundSession:
@@ -43,6 +46,7 @@ class GroundSession:
         self._nonce = b""
         self._last_nonce = b""
         self._commands: Stream | None = None
+        self._frames: Stream | None = None
         self._streams: dict[int, Stream] = {}
 
     @property
@@ -87,6 +91,10 @@ class GroundSession:
 
         Raises EnvelopeError; `unknown_stream`: the aircraft has restarted or has drawn a new key.
         """
+        if body[:1] == _SHORT:
+            if self._frames is None:
+                raise EnvelopeError("unknown_stream")
+            return self._frames.open(self._frames.restored(body))
         number, _ = place_of(body)
         stream = self._streams.get(number)
         if stream is not None:
@@ -102,7 +110,7 @@ class GroundSession:
         if said.code == "unknown_key" and not self.is_open:
             return True
         said.check(body, self._aircraft, self._secret)
-        self._commands = None
+        self._commands = self._frames = None
         self._streams.clear()
         return True
 
@@ -120,5 +128,5 @@ class GroundSession:
             stream.counter = max(counter, known.counter if known else 0)
         before = [each for each in self._streams.values() if not each.session & BROADCAST][-1:]
         self._streams = {each.session: each for each in (*before, answers, frames, messages)}
-        self._commands = keys.stream(b"command", said.session)
+        self._commands, self._frames = keys.stream(b"command", said.session), frames
         self._last_nonce, self._nonce = self._nonce, b""

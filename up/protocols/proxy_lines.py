@@ -129,14 +129,15 @@ class AircraftPresence(_Line):
 
 @dataclass(frozen=True, slots=True)
 class Watchers(_Line):
-    """Proxy to aircraft: the number of grounds; `packed` 1: all read packed telemetry.
+    """Proxy to aircraft: the number of grounds; 1: all read packed telemetry, attitude frames.
 
     After each such line a ground may lack the present key.
     """
 
-    FORMAT: ClassVar[str] = "watch grounds={grounds} packed={packed}"
+    FORMAT: ClassVar[str] = "watch grounds={grounds} packed={packed} attitude={attitude}"
     grounds: int
     packed: int
+    attitude: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +191,9 @@ _LINES: dict[str, Callable[[Mapping[str, str]], ProxyLine | GroundLine]] = {
     ),
     "aircraft online": lambda words: AircraftPresence(True),
     "aircraft offline": lambda words: AircraftPresence(False),
-    "watch": lambda words: Watchers(_number(words["grounds"]), int(words["packed"] == "1")),
+    "watch": lambda words: Watchers(
+        _number(words["grounds"]), int(words["packed"] == "1"), int(words.get("attitude") == "1")
+    ),
     "key": lambda words: KeyRequest(),
     "seat request": lambda words: ControlRequest(),
     "seat release": lambda words: ControlRelease(),
@@ -240,15 +243,17 @@ class Hello:
     """The first line of a client. `access` None: the airborne side; `token` None or "": none.
 
     `packed`: the client sends or reads packed telemetry, and knows `Watchers` and `KeyRequest`.
+    `attitude`: a ground also reads attitude frames, and short protected messages.
     """
 
     aircraft: str
     access: Access | None = None
     token: str | None = None
     packed: bool = False
+    attitude: bool = False
 
     def encode(self) -> bytes:
-        packed = " packed=1" if self.packed else ""
+        packed = " packed=1" * self.packed + " attitude=1" * self.attitude
         access = f" seat={self.access.value}" if self.access else ""
         token = f" token={self.token}" if self.token else ""
         return f"UP1 aircraft={self.aircraft}{access}{token}{packed}\n".encode("ascii")
@@ -282,7 +287,8 @@ def parse_hello(line: bytes, side: Side) -> Hello:
     if token is not None and not _TOKEN.fullmatch(token):
         raise _malformed("token= must be 32 to 64 hexadecimal digits")
     access = _access(words.get("seat"), side)
-    return Hello(name, access, token and token.lower(), words.get("packed") == "1")
+    packed, attitude = (words.get(key) == "1" for key in ("packed", "attitude"))
+    return Hello(name, access, token and token.lower(), packed, attitude)
 
 
 def _access(word: str | None, side: Side) -> Access | None:

@@ -59,12 +59,16 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
+        newest = self.value
         return {
             "location": {
                 "latitude": self.latitude,
                 "longitude": self.longitude,
                 "altitude": self.altitude,
                 "satellites": self.satellites,
+                "accuracy": newest and newest.accuracy_m,
+                "fix": newest and newest.fix,
+                "pdop": newest and newest.pdop,
             },
             "home": {"distance": self.distance_from_home, "bearing": self.required_bearing},
             **self._ages(),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Set
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -30,7 +31,7 @@ class AuditLog:
 
     log = Logger()
 
-    def __init__(self, reactor: Any, path: Path, links: frozenset[str]) -> None:
+    def __init__(self, reactor: Any, path: Path, links: Set[str]) -> None:
         self._file = RotatingFile(path, _ROTATE_BYTES, _KEEP)
         self._links = links
         self._disk = DiskThread(reactor)

@@ -10,8 +10,8 @@ SLOWEST_S = 1.0
 """A frame leaves after this time whatever the budget: attitude and alarms come last to degrade."""
 USEFUL_HZ = 4.0
 """Below this rate the frames get less detail before there are fewer of them."""
-HOLDS_S = (0.0, 1.0, 2.0)
-"""Levels of detail: how long a frame may repeat everything but attitude, alarms and events."""
+HOLDS_S = (0.0, 1.0, 4.0)
+"""Levels of detail: how old everything but attitude, alarms and events may be in a frame."""
 _RETRY_S = 30.0
 _MARGIN = 1.1
 _SHARE = 0.99
@@ -33,6 +33,7 @@ class DataBudget:
         self.total_bytes = 0
         self.left_out = 0
         self.level = 0
+        self._is_low = False
         self._limit = (
             None if limit_mb_per_hour is None else limit_mb_per_hour * _SHARE * _MB / _HOUR_S
         )
@@ -44,7 +45,7 @@ class DataBudget:
 
     @property
     def hold_s(self) -> float:
-        """Return how long a frame may repeat what is neither attitude nor alarm."""
+        """Return how old what is neither attitude nor alarm may be in a frame."""
         return HOLDS_S[self.level]
 
     @property
@@ -71,11 +72,16 @@ class DataBudget:
             self._credit = max(-5 * burst, min(burst, credit))
         self._now_s = now_s
 
-    def permits(self, now_s: float) -> bool:
-        """Return whether a frame may leave now; without permission it counts as left out."""
-        if self._limit is not None and self._credit < 0 and now_s - self._sent_s < SLOWEST_S:
-            self.left_out += 1
-            return False
+    def permits(self, now_s: float, *, is_urgent: bool = False) -> bool:
+        """Return whether a frame may leave now; without permission it counts as left out.
+
+        A frame with an alarm or an event is urgent: it may use what the next ones would.
+        """
+        if self._limit is not None and now_s - self._sent_s < SLOWEST_S:
+            least = -self._limit * _BURST_S if is_urgent else 0.0
+            if self._credit < least:
+                self.left_out += 1
+                return False
         self._sent_s = now_s
         self._level_frames += 1
         if self._limit is not None and now_s - self._level_s >= _LEVEL_S:
@@ -86,8 +92,11 @@ class DataBudget:
         # At least a byte: without a link, or a kernel that counts, there are none.
         cost = max(1, self._level_bytes) / self._level_frames
         self._costs[self.level] = (cost, now_s)
-        if limit / cost < USEFUL_HZ:
-            self.level = min(self.level + 1, len(HOLDS_S) - 1)
+        was_low, self._is_low = self._is_low, limit / cost < USEFUL_HZ
+        if self._is_low:
+            # Twice in succession: a handshake or a session is paid for once.
+            self.level = min(self.level + was_low, len(HOLDS_S) - 1)
+            self._is_low = not was_low
         elif self.level:
             above, then_s = self._costs.get(self.level - 1, (cost, 0.0))
             if limit / above > USEFUL_HZ * _MARGIN or now_s - then_s > _RETRY_S:

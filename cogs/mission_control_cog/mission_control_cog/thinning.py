@@ -32,16 +32,38 @@ def tree_of(leaves: Mapping[str, Any]) -> Tree:
 _PULSE_US = 4
 """Resolution of the pulses of receiver and servos."""
 _DECIMALS = tree_of({each.path: each.decimals for each in FIELDS if each.type == "number"})
-_SLOW = tree_of(dict.fromkeys((
+_SLOW_PATHS = (
     "counters", "load.cpu", "load.ram", "black_box.megabytes", "uplink.mb_per_hour", "uplink.mb",
     "uplink.mb_in_an_hour", "arduino.loop_us", "arduino.late_us", "arduino.flight_battery_v",
     "system.uptime_s", "navigation.sd", "navigation.wind", "home.time_s",
-)))  # fmt: skip
+)  # fmt: skip
+_SLOW = tree_of(dict.fromkeys(_SLOW_PATHS))
+_COUNTED = ("age_ms", "counters", "system.clock_ms", "uplink.left_out", *_SLOW_PATHS)
+"""Without an age of their own, and different in each frame or each second."""
+_EVENTS = sorted({
+    tuple(path.split(".")[:2])
+    for path in (
+        *(rule.path for rule in RULES if rule.path),
+        *(each.path for each in FIELDS if not each.reading or (each.reading == "flight"
+          and each.type != "number")),
+    )
+    if path not in _COUNTED and path.split(".")[0] not in _COUNTED
+})  # fmt: skip
+"""Alarms, events, the board's flags and texts, and all that would be shown as new though old."""
 _LIVE = tree_of(dict.fromkeys((
-    *(rule.path for rule in RULES), "orientation", "system.clock_ms", "system.period_ms",
-    "uplink.left_out", "age_ms.orientation", "age_ms.flight",
+    *map(".".join, _EVENTS), "orientation", "system.clock_ms", "uplink.left_out",
+    "age_ms.orientation", "age_ms.flight",
 )))  # fmt: skip
-"""Always new, however small the budget: attitude, alarms, events."""
+"""Always new, however small the budget."""
+
+
+def events_of(content: Mapping[str, Any]) -> list[Any]:
+    """Return the values of which an attitude frame may tell no change."""
+    found = []
+    for group, *names in _EVENTS:
+        value = content.get(group)
+        found.append(value.get(names[0]) if names and isinstance(value, Mapping) else value)
+    return found
 
 
 class Thinning:

@@ -18,6 +18,7 @@ from mission_control_cog.host_addresses import HostAddresses, HostNotFoundError
 from mission_control_cog.uplink_protocol import UplinkProtocol
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.protocols.general_message_link import MAX_BURST, MAX_MESSAGES_HZ
+from up.protocols.packed_telemetry import IsEnough
 from up.protocols.proxy_lines import Hello
 from up.system.backoff import Backoff
 from up.system.token_bucket import TokenBucket
@@ -98,16 +99,28 @@ class Uplink:
         """Send in place of an older unsent message."""
         return self._link is not None and self._link.send_newest(message)
 
-    def send_packed(self, frame: bytes, lines: Callable[[bytes], bytes]) -> bool:
+    def send_packed(
+        self,
+        frame: bytes,
+        lines: Callable[[bytes], bytes],
+        whole_s: float = 0.0,
+        is_enough: IsEnough | None = None,
+    ) -> bool:
         """Send a frame of telemetry packed, in place of an older unsent message.
 
-        ``lines`` makes of the packed body, when it leaves, what is sent of it.
+        ``lines`` makes of the packed body, when it leaves, what is sent of it; ``whole_s`` and
+        ``is_enough`` are those of Packer.pack.
         """
-        return self._link is not None and self._link.send_packed(frame, lines)
+        link = self._link
+        return link is not None and link.send_packed(frame, lines, whole_s, is_enough)
 
     @property
     def may_pack(self) -> bool:
         return self._link is not None and self._link.may_pack
+
+    @property
+    def may_shorten(self) -> bool:
+        return self._link is not None and self._link.may_shorten
 
     @property
     def grounds(self) -> int | None:

@@ -11,7 +11,7 @@ from twisted.python.failure import Failure
 from up.protocols.binary_line import to_line
 from up.protocols.general_message_link import GeneralMessageProtocol
 from up.protocols.link_output import Make
-from up.protocols.packed_telemetry import Packer
+from up.protocols.packed_telemetry import IsEnough, Packer
 from up.protocols.proxy_lines import (
     HELLO_MAX_BYTES,
     Accepted,
@@ -80,6 +80,11 @@ class UplinkProtocol(GeneralMessageProtocol):
         """Return whether every ground reads packed telemetry."""
         return self.watchers is not None and bool(self.watchers.packed)
 
+    @property
+    def may_shorten(self) -> bool:
+        """Return whether every ground reads attitude frames."""
+        return self.watchers is not None and bool(self.watchers.attitude)
+
     def ip_bytes(self) -> int | None:
         """Return the bytes of this connection so far, both ways with headers; None: not known."""
         return ip_bytes(self.transport)
@@ -90,13 +95,24 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._sent_s = self._clock.seconds()
         return super().send_newest(message)
 
-    def send_packed(self, frame: bytes, lines: Callable[[bytes], bytes] = to_line) -> bool:
-        """Send a frame of telemetry, a line, packed when it leaves; ``lines`` is of its body."""
-        return self.send_newest(lambda: self._pack(frame, lines))
+    def send_packed(
+        self,
+        frame: bytes,
+        lines: Callable[[bytes], bytes] = to_line,
+        whole_s: float = 0.0,
+        is_enough: IsEnough | None = None,
+    ) -> bool:
+        """Send a frame of telemetry, a line, packed when it leaves; ``lines`` is of its body.
 
-    def _pack(self, frame: bytes, lines: Callable[[bytes], bytes]) -> bytes:
-        # A link that sends nothing would not ask for more.
-        return lines(self._packer.pack(frame[:-1], self._clock.seconds())) or b"\n"
+        ``whole_s`` and ``is_enough`` are those of Packer.pack.
+        """
+
+        def pack() -> bytes:
+            body = self._packer.pack(frame[:-1], self._clock.seconds(), whole_s, is_enough)
+            # A link that sends nothing would not ask for more.
+            return lines(body) or b"\n"
+
+        return self.send_newest(pack)
 
     def _on_control(self, line: bytes) -> bool:
         said = parse_line(line)

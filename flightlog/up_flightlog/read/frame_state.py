@@ -14,7 +14,8 @@ from up.flight_log.origin_text import KEY, link_and_role
 from up_flightlog.read.source_filter import SourceFilter
 
 ANGLES = ("yaw", "pitch", "roll")
-PLACE = ("latitude", "longitude", "altitude", "satellites")
+QUALITY = ("satellites", "accuracy", "fix", "pdop")
+PLACE = ("latitude", "longitude", "altitude", *QUALITY)
 
 
 class FrameState:
@@ -94,7 +95,7 @@ class FrameState:
             "latitude": place[0],
             "longitude": place[1],
             "altitude": data.get("altitude"),
-            "satellites": data.get("satellites"),
+            **{key: data.get(key) for key in QUALITY},
         }
         home = self._home = self._home or place
         self._tree["home"] = {

@@ -11,6 +11,7 @@ from up.fields import printable
 from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
 from up.output import echo
+from up.sanitize_text import sanitize_text
 from up_flightlog.cli.parser import PLACE
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import find_flight_of
@@ -18,7 +19,6 @@ from up_ground.one_shot_task import print_error
 from up_ground.one_shot_task import run as run_task
 from up_ground.replay.replayed_aircraft import ReplayedAircraft
 from up_ground.replay.timeline import ReplayTimeline
-from up_ground.sanitize_text import sanitize_text
 from up_ground.web.serve import PageOptions
 
 

@@ -8,14 +8,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from up.commands.event_rules import INFO, Report
 from up.commands.telemetry_schema import SILENT_S
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import Frame, frames
-from up_ground.sanitize_text import sanitize_text
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EventMonitor
-from up_ground.web.event_rules import INFO, LinkSnapshot, Report
+from up_ground.web.event_rules import LinkSnapshot
 from up_ground.web.track import Home, Track, track_message
 
 GAINS = "arduino.pids.values"

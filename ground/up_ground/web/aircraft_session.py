@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from up.commands.event_rules import Report
 from up.protocols.general_message import GeneralMessage
 from up.protocols.handshake import ROLES
 from up.protocols.pairing import Pairing
@@ -26,7 +27,7 @@ from up_ground.web.command_gate import CommandGate
 from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
-from up_ground.web.event_rules import LinkSnapshot, Report
+from up_ground.web.event_rules import LinkSnapshot
 from up_ground.web.messages import PageFault, Reader
 from up_ground.web.plan_service import PlanService
 from up_ground.web.proxy_lease import ProxyLease

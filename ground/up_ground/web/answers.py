@@ -7,13 +7,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from up.commands.event_rules import Report
 from up.commands.telemetry_schema import OUTCOMES
 from up.flight_log.gain_changes import changes_text
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
 from up_ground.catalogue import GAINS, requested_content
-from up_ground.sanitize_text import sanitize_text
-from up_ground.web.event_rules import Report
 
 ANSWER_LIMIT_S = 5.0
 

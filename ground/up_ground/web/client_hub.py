@@ -12,10 +12,10 @@ from twisted.internet.defer import Deferred
 from up.errors import UserError
 from up.protocols.link_output import Make
 from up.protocols.pairing import Pairing, parse_pairing
+from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
-from up_ground.sanitize_text import sanitize_text
 from up_ground.web.access import Access, Denial
 from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import (

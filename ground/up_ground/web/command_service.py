@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+from up.commands.event_rules import Report
 from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
 from up_ground.catalogue import GAINS
@@ -15,7 +16,6 @@ from up_ground.web.answers import Answer, Answers, outcome_event
 from up_ground.web.client_session import Ask, ClientSession
 from up_ground.web.command_gate import CommandGate
 from up_ground.web.control import Control
-from up_ground.web.event_rules import Report
 from up_ground.web.gains_history import GainsHistory
 from up_ground.web.messages import PageFault, Reader
 

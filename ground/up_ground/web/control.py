@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from up.commands.event_rules import INFO, Report
+from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
 from up_ground.link_status import ASK_INTERVAL_S, ControlStatus
-from up_ground.sanitize_text import sanitize_text
 from up_ground.web.client_session import ClientSession
-from up_ground.web.event_rules import INFO, Report
 from up_ground.web.messages import PageFault
 from up_ground.web.proxy_lease import ProxyLease
 

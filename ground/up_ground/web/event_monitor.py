@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from up.commands.event_rules import Report, report_of, state_of
 from up.commands.schema_rows import Rule
 from up.commands.telemetry_schema import (
     ALARM_HOLDS_S,
@@ -20,12 +21,9 @@ from up_ground.telemetry import Telemetry
 from up_ground.web.event_rules import (
     Alarm,
     LinkSnapshot,
-    Report,
     alarm_of,
     event_of,
-    report_of,
     silence,
-    state_of,
 )
 
 EVENTS_KEPT = 200

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from up.commands.command import BaseCommand
+from up.commands.event_rules import Report
 from up.commands.mission_commands import (
     FENCE,
     MISSION,
@@ -17,17 +18,16 @@ from up.commands.mission_commands import (
 from up.mission.items import Border, MissionItem, PlanItem, plan_id
 from up.mission.plan import FORMS, Plan, PlanError, PlanProblem, checked_items, position
 from up.mission.plan_forms import read_plan, write_plan
+from up.mission.plan_transfer import NO_CONTENT, PlanOutcome, PlanTransfer
+from up.mission.reliable_requests import NO_ANSWER
 from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
 from up_ground.ground_link import GroundLink
-from up_ground.plan_transfer import NO_CONTENT, PlanOutcome, PlanTransfer
-from up_ground.reliable_requests import NO_ANSWER
 from up_ground.telemetry import Telemetry
 from up_ground.web.answers import Answer, outcome_event
 from up_ground.web.client_session import ClientSession
 from up_ground.web.command_gate import CommandGate
 from up_ground.web.control import Control
-from up_ground.web.event_rules import Report
 from up_ground.web.messages import MAX_PLAN_BYTES, PageFault, Reader
 
 LISTED = 100

@@ -17,6 +17,8 @@ HOME = {
     "altitude_m": GROUND_M,
     "radius_m": None,
 }
+QGROUNDCONTROL = "udpout:127.0.0.1:14550"
+"""Where QGroundControl listens without any configuration."""
 FLIGHTS = "flights"
 """Where, in the folder of a run, the black box writes."""
 
@@ -31,6 +33,7 @@ def write_config(
     uplink_port: int = 0,
     is_at_start: bool = True,
     is_plain: bool = False,
+    has_mavlink: bool = False,
 ) -> None:
     """Write the files of a run; gains that an earlier run of the same airframe saved stay.
 
@@ -38,6 +41,7 @@ def write_config(
     finds the proxy at ``uplink_port`` if a bad link lies between them. ``is_at_start``: it is
     launched above the simulator's usual place, whose ground is home. ``is_plain``: everyone who
     reaches the proxy may arm and tune, otherwise only devices with a key.
+    ``has_mavlink``: every program of this machine may do so by MAVLink.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = {
@@ -53,6 +57,7 @@ def write_config(
             + ("role: pilot\n" if is_plain else "  security: require\n")
             + "tune_in_flight: true\n"
         ),
+        "mavlink.yml": _mavlink(ports) if has_mavlink else "endpoints: []\n",
         "navigation.yml": yaml.safe_dump(airframe.navigation, sort_keys=False),
         "proxy.yml": (
             f"airborne port: {ports.airborne}\n"
@@ -70,6 +75,11 @@ def write_config(
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")
     _keep_gains(folder, airframe)
+
+
+def _mavlink(ports: Ports) -> str:
+    urls = (QGROUNDCONTROL, f"tcpin:127.0.0.1:{ports.mavlink}")
+    return "".join(["endpoints:\n", *(f"- url: {url}\n  role: pilot\n" for url in urls)])
 
 
 def _quoted(path: Path) -> str:

@@ -85,6 +85,9 @@ class DemoFlight:
         aircraft.wait_for("board_ready", START_LIMIT_S)
         daemon.wait_for("started", START_LIMIT_S)
         log(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
+        if options.mavlink:
+            log("  mavlink    QGroundControl on this machine connects by itself (UDP 14550);")
+            log(f"             others: TCP 127.0.0.1:{ports.mavlink}, ArduPilot, may arm")
         if options.controller == "raspberry":
             daemon.wait_for("control_changed", START_LIMIT_S, flies=True)
         else:
@@ -182,6 +185,7 @@ class DemoFlight:
             uplink_port=self._ports.uplink if self._options.link else 0,
             is_at_start=not self._options.replay,
             is_plain=self._options.plain,
+            has_mavlink=self._options.mavlink,
         )
 
     def _pair(self) -> str:

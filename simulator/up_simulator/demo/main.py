@@ -141,6 +141,11 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
         help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
     )
     parser.add_argument("--plain", action="store_true", help="fly without end-to-end keys")
+    parser.add_argument(
+        "--mavlink",
+        action="store_true",
+        help="let QGroundControl, MAVProxy and MAVSDK on this machine connect",
+    )
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/demo)")
     parser.add_argument(
         "--seconds",

@@ -25,6 +25,7 @@ class Ports:
     metrics: int = 9303
     uplink: int = 3005
     page: int = 8080
+    mavlink: int = 5760
 
 
 def choose_ports(any_ports: bool = False) -> Ports:

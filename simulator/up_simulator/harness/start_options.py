@@ -127,6 +127,12 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         "--gains", type=_file, metavar="FILE", help="pids.yml that the Arduino's EEPROM holds"
     )
     group.add_argument(
+        "--gps-link",
+        type=Path,
+        metavar="PATH",
+        help="symbolic link to the pty of a u-blox receiver aboard (gps.yml: port), none otherwise",
+    )
+    group.add_argument(
         "--pty-link", type=Path, metavar="PATH", help="symbolic link to the pty, removed at exit"
     )
 

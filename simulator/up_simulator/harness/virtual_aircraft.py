@@ -27,6 +27,7 @@ from up_simulator.phone.link import PythonHandset
 from up_simulator.radio.choice import choose_radio
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio
+from up_simulator.sensors.ubx_receiver import UbxReceiver
 
 TICK_S = 0.004
 
@@ -46,6 +47,7 @@ class VirtualAircraft:
         self._reactor = reactor
         self._log = log
         self._line: PtyLine | None = None
+        self._gps_line: PtyLine | None = None
         self._radio: Radio | None = None
         self._phone: PythonHandset | None = None
         self._state_log: StateLog | None = None
@@ -86,6 +88,10 @@ class VirtualAircraft:
             self._state_log = StateLog(options.state_log)
         if not options.no_phone:
             self._phone = self._make_phone(options)
+        if options.gps_link is not None:
+            self._gps_line = line = PtyLine(options.gps_link)
+            receiver = UbxReceiver(options.seed)
+            self._ticks.append(lambda: receiver.exchange(line, self.flight.state))
         if options.link is not None:
             self._uplink = make_uplink(
                 self._reactor, options.link_port, options.link_to, options.link, options.seed
@@ -182,10 +188,10 @@ class VirtualAircraft:
                 self._state_log = None
 
     def _release(self) -> None:
-        for each in (self._radio, self._line, self._state_log):
+        for each in (self._radio, self._line, self._gps_line, self._state_log):
             if each is not None:
                 each.close()
-        self._radio = self._line = self._state_log = None
+        self._radio = self._line = self._gps_line = self._state_log = None
 
 
 def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaitable[RaspberryPi]]:

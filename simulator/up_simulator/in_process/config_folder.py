@@ -10,6 +10,7 @@ import yaml
 
 GROUND_PORT = 50002
 SERIAL_PORT = "/dev/ttySimulated"
+GPS_PORT = "/dev/ttySimulatedGps"
 BASE: Mapping[str, Mapping[str, Any]] = {
     "arduino.yml": {"port": SERIAL_PORT},
     "mission_control.yml": {

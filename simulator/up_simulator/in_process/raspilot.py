@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Any, cast
 
 from constantly import NamedConstant
 from twisted.internet.defer import Deferred
+from twisted.internet.task import LoopingCall
 from twisted.logger import ILogObserver, LogEvent, Logger, globalLogPublisher
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
 from up.base_module import BaseModule
+from up.base_started_module import BaseStartedModule, StartResult
 from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
 from up.errors import UserError
@@ -35,8 +38,10 @@ from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.in_process.socket_line import SocketLine
+from up_simulator.sensors.twin import TwinBus
 
 MAX_LOG_LINES = 2000
+I2C_PERIOD_S = 0.01
 
 
 @implementer(ILogObserver)
@@ -91,7 +96,8 @@ class InProcessRaspilot:
 
     The application is found from ``root`` and configured by a folder (``write_config``). Its
     serial port is a socket in this process, whatever port its configuration names, which ``pump``
-    connects with a board; ``line`` can be unplugged. Its random numbers follow ``seed``. Signals,
+    connects with a board; ``line`` can be unplugged. So is the port of a satellite receiver,
+    ``gps_line``; ``i2c`` is its I2C bus. Its random numbers follow ``seed``. Signals,
     the process's priority, its watchdogs and its garbage collector belong to the program, and are
     not part of this. A proxy must be configured by its address: a name would be resolved by a
     thread.
@@ -109,6 +115,8 @@ class InProcessRaspilot:
     ) -> None:
         self.meter = SettableMeter()
         self.line = SocketLine()
+        self.gps_line = SocketLine()
+        self.i2c = TwinBus({})
         self.up: Up | None = None
         self.boots = 0
         self._reactor = reactor
@@ -185,6 +193,7 @@ class InProcessRaspilot:
         self._log.close()
         host.cut_off()
         self.line.cut()
+        self.gps_line.cut()
         self.up = self._life = None
 
     def freeze(self) -> None:
@@ -212,14 +221,14 @@ class InProcessRaspilot:
         for module in up.modules:
             each: Any = module
             if module.class_name == "SerialProvider":
-                each.open_port = self._open_port
+                each.open_port = partial(_open, self.line)
+            elif module.class_name == "GpsProvider":
+                each.open_port = partial(_open, self.gps_line)
+            elif module.class_name == "I2cSensors":
+                each.open_bus = lambda _number: self.i2c
+                each.start = partial(_start_in_reactor, each)
             elif module.class_name == "LoadGuard":
                 each.meter = self.meter
-
-    def _open_port(self, path: str, baud: int) -> SerialLike:
-        if not self.line.is_plugged:
-            raise SerialPortError(f"{path} is missing: is the board plugged in?")
-        return self.line.open()
 
     def _begin(self) -> None:
         assert self._life is not None
@@ -234,3 +243,18 @@ class InProcessRaspilot:
 
     def _failed(self, failure: Failure, what: str) -> None:
         self.log_source.failure(what, failure)
+
+
+def _open(line: SocketLine, path: str, baud: int) -> SerialLike:
+    if not line.is_plugged:
+        raise SerialPortError(f"{path} is missing: is the board plugged in?")
+    return line.open()
+
+
+async def _start_in_reactor(sensors: Any) -> StartResult:
+    """Start the module that reads the I2C bus; a thread would not be in simulated time."""
+    result = await BaseStartedModule.start(sensors)
+    loop = LoopingCall(sensors.poll)
+    loop.clock = sensors.context.reactor
+    loop.start(I2C_PERIOD_S, now=False)
+    return result

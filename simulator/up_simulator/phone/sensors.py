@@ -47,6 +47,7 @@ class PhoneSensors:
         self.has_barometer = True
         self._period_s = GPS_PERIOD_S
         self._fix_noise, self._delay_jitter_s = 1.0, GPS_DELAY_JITTER_S
+        self._min_delay_s = MIN_GPS_DELAY_S
         spread = random.Random(f"gps wander {seed}")
         horizontal_m = spread.uniform(*GPS_WANDER_M)
         self._wander_spread_m = (horizontal_m, horizontal_m, spread.uniform(*GPS_ALTITUDE_WANDER_M))
@@ -57,12 +58,18 @@ class PhoneSensors:
         self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
 
-    def use_exact_receiver(self, period_s: float) -> None:
-        """Replace the GPS from now on by one without errors; a fix is 0.2 s old on arrival."""
+    def use_receiver(
+        self, period_s: float, delay_s: float = 0.2, wander_m: float = 0.0, noise: float = 0.0
+    ) -> None:
+        """Replace the GPS from now on, by default by one without errors.
+
+        A fix is ``delay_s`` old on arrival; the altitude wanders twice as far; ``noise`` is a part
+        of a phone's.
+        """
         self._period_s = period_s
-        self._fix_noise = self._delay_jitter_s = 0.0
-        self.gps_delay_s = MIN_GPS_DELAY_S
-        self._wander_spread_m = (0.0, 0.0, 0.0)
+        self._fix_noise, self._delay_jitter_s = noise, 0.0
+        self.gps_delay_s = self._min_delay_s = delay_s
+        self._wander_spread_m = (wander_m, wander_m, 2 * wander_m)
         self._wander_m = [0.0, 0.0, 0.0]
 
     @property
@@ -121,7 +128,7 @@ class PhoneSensors:
             return
         if self.gps != "frozen" or not self._newest_fix:
             self._newest_fix = fix
-        ready_s = state.time_s + max(MIN_GPS_DELAY_S, delay_s)
+        ready_s = state.time_s + max(self._min_delay_s, delay_s)
         self._coming.append((ready_s, state.time_s, self._newest_fix))
 
     def _measure(self, state: FlightState) -> dict[str, Any]:

@@ -94,6 +94,12 @@ class Event:
         "The GPS of the phone. lost: no fix. jumped: 300 m beside the truth. frozen: the last fix"
         " again and again.",
     )
+    gps_receiver: Literal["unplugged", "lost", "jumped", "frozen", "back"] | None = key(
+        None, "The receiver beside the phone. unplugged: its port is gone; else as gps."
+    )
+    i2c: Literal["unplugged", "back"] | None = key(
+        None, "The wire to all sensors at the I2C bus: every transfer fails."
+    )
     motor: Literal["stopped", "back"] | None = key(
         None, "stopped: the motor gives no thrust, whatever the throttle, and nothing reports it."
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from up_simulator.aircraft.flight import FlightSource
-from up_simulator.in_process.config_folder import GROUND_PORT, merge, write_config
+from up_simulator.in_process.config_folder import GPS_PORT, GROUND_PORT, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
@@ -14,6 +14,10 @@ from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import DaemonParticipants
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.workspace import Workspace
+from up_simulator.sensors.chips import bus_of
+
+I2C_PERIOD_S = 0.02
+"""How often the chips measure."""
 
 
 class InProcessParticipants(DaemonParticipants):
@@ -32,8 +36,17 @@ class InProcessParticipants(DaemonParticipants):
         super().__init__(scenario, board)
         self._reactor = SimulatedReactor()
         self._workspace = Workspace()
+        if scenario.gps is not None:
+            receiver = {"source": "ubx", "port": GPS_PORT, "rate_hz": scenario.gps.rate_hz}
+            settings = merge(settings, {"gps.yml": {"receivers": {"gps": receiver}}})
+        if scenario.sensors:
+            sensors = {name: {"chip": name} for name in scenario.sensors}
+            settings = merge(settings, {"sensors.yml": {"sensors": sensors}})
+        self._flight = flight
         config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
         self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
+        self._daemon.i2c = bus_of(scenario.sensors, scenario.seed)
+        self._i2c_due_s = 0.0
         self.raspilot = self._daemon
         self._reactor.link(GROUND_PORT, up=self.down, down=self.up)
         if scenario.ground is not None:
@@ -51,6 +64,11 @@ class InProcessParticipants(DaemonParticipants):
 
     def exchange(self, step_s: float) -> None:
         self._daemon.pump(self.board)
+        if self.receiver is not None:
+            self.receiver.exchange(self._daemon.gps_line, self._flight.state)
+        if self.scenario.sensors and self.seconds() >= self._i2c_due_s:
+            self._i2c_due_s = self.seconds() + I2C_PERIOD_S
+            self._daemon.i2c.update(self._flight.state)
         self._reactor.advance(step_s)
         self.check_raspilot()
 
@@ -59,6 +77,15 @@ class InProcessParticipants(DaemonParticipants):
             self._daemon.line.plug()
         else:
             self._daemon.line.unplug()
+
+    def plug_i2c(self, is_in: bool) -> None:
+        self._daemon.i2c.fails = lambda: not is_in
+
+    def plug_receiver(self, is_in: bool) -> None:
+        if is_in:
+            self._daemon.gps_line.plug()
+        else:
+            self._daemon.gps_line.unplug()
 
     def load(self, percent: float) -> None:
         self._daemon.meter.load = percent

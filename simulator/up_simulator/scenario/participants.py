@@ -15,6 +15,7 @@ from up_simulator.scenario.event import Event
 from up_simulator.scenario.initial_conditions import LinkPart
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario
+from up_simulator.sensors.ubx_receiver import UbxReceiver
 
 SETTLING_S = 1.0
 REQUEST_INTERVAL_S = 0.5
@@ -35,6 +36,7 @@ class Participants:
     raspilot: Raspilot | None = None
     ground: InProcessGround | None = None
     phone: InProcessPhone | None = None
+    receiver: UbxReceiver | None = None
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
     """The files, by name, that a real daemon has recorded; available after ``stop``."""
 
@@ -86,6 +88,12 @@ class DaemonParticipants(Participants, ABC):
         self.scenario = scenario
         self.up = LinkModel(seed=scenario.seed)
         self.down = LinkModel(seed=scenario.seed + 1)
+        part = scenario.gps
+        self.receiver = (
+            None
+            if part is None
+            else UbxReceiver(scenario.seed, cold_s=part.cold_s, is_exact=part.is_exact)
+        )
         self._ready_s: float | None = None
         self._should_run = False
 
@@ -100,6 +108,14 @@ class DaemonParticipants(Participants, ABC):
     @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
         """Attach or remove the serial port."""
+
+    def plug_i2c(self, is_in: bool) -> None:
+        """Attach or remove the sensors at the I2C bus; raises ParticipantError if impossible."""
+        raise ParticipantError("sensors at the I2C bus fly only in process")
+
+    @abstractmethod
+    def plug_receiver(self, is_in: bool) -> None:
+        """Attach or remove the serial port of the satellite receiver."""
 
     @abstractmethod
     def load(self, percent: float) -> None:
@@ -135,6 +151,13 @@ class DaemonParticipants(Participants, ABC):
                 (phone.plug if event.phone == "back" else phone.unplug)()
             case "gps" if phone is not None:
                 phone.sensors.gps = event.gps or "back"
+            case "gps_receiver" if self.receiver is not None:
+                if event.gps_receiver in ("unplugged", "back"):
+                    self.plug_receiver(event.gps_receiver == "back")
+                if event.gps_receiver != "unplugged":
+                    self.receiver.set_state(event.gps_receiver or "back")
+            case "i2c":
+                self.plug_i2c(event.i2c == "back")
             case "phone_battery" if phone is not None and event.phone_battery is not None:
                 phone.set_battery(event.phone_battery)
             case "link":
@@ -145,8 +168,8 @@ class DaemonParticipants(Participants, ABC):
                 self._command_raspilot(event.raspilot or "started")
             case "cpu_load_percent" if event.cpu_load_percent is not None:
                 self.load(event.cpu_load_percent)
-            case "phone" | "gps" | "phone_battery":
-                pass  # Flown without a phone.
+            case "phone" | "gps" | "gps_receiver" | "phone_battery":
+                pass  # Flown without it.
             case kind:
                 raise ParticipantError(f"nothing in the simulator carries out '{kind}'")
 

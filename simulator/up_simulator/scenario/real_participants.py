@@ -52,6 +52,8 @@ class RealParticipants(DaemonParticipants):
         # Three of the phone's and the link's own, and those of the programs.
         self._ports, self._before = choose_port_sets(2)
         self._line: PtyLine | None = self._open_line()
+        self._receiver_line = self._open_receiver_line()
+        self._flight = flight
         self._real = self._make_daemon(merge(self._files(), settings))
         self.raspilot = self._real
         self._make_ground()
@@ -83,6 +85,8 @@ class RealParticipants(DaemonParticipants):
         sent = self.board.read()
         if line is not None and sent:
             line.write(sent)
+        if self.receiver is not None and self._receiver_line is not None:
+            self.receiver.exchange(self._receiver_line, self._flight.state)
         self._reactor.advance(step_s)
         self.check_raspilot()
 
@@ -110,6 +114,11 @@ class RealParticipants(DaemonParticipants):
         if is_in:
             self._line = self._open_line()
 
+    def plug_receiver(self, is_in: bool) -> None:
+        if self._receiver_line is not None:
+            self._receiver_line.close()
+        self._receiver_line = self._open_receiver_line() if is_in else None
+
     def load(self, percent: float) -> None:
         """Raise ParticipantError: a real daemon measures the load of the whole machine."""
         raise ParticipantError(
@@ -123,6 +132,7 @@ class RealParticipants(DaemonParticipants):
         if self._line is not None:
             self._line.close()
             self._line = None
+        self.plug_receiver(False)
         self._reactor.stop()
         # An instance of a runner has its own folder in the one that it is given.
         found = sorted((self._folder / FLIGHTS).rglob("*.mcap"))
@@ -141,9 +151,12 @@ class RealParticipants(DaemonParticipants):
         else:
             self._real.stop()
 
-    def _open_line(self) -> PtyLine:
+    def _open_receiver_line(self) -> PtyLine | None:
+        return None if self.receiver is None else self._open_line("gps")
+
+    def _open_line(self, name: str = "board") -> PtyLine:
         try:
-            return PtyLine(self._folder / "board")
+            return PtyLine(self._folder / name)
         except (PtyLineError, OSError) as error:
             raise SerialLineError(f"cannot open the serial line: {error}") from error
 
@@ -177,6 +190,9 @@ class RealParticipants(DaemonParticipants):
             "mission_control.yml": {"listener": {"port": ports.ground, "address": LOOPBACK}},
             "black_box.yml": self._black_box(),
         }
+        if self.scenario.gps is not None:
+            port, rate_hz = str(self._folder / "gps"), self.scenario.gps.rate_hz
+            files["gps.yml"] = {"receivers": {"gps": {"port": port, "rate_hz": rate_hz}}}
         if self._has_proxy:
             uplink = {"url": LOOPBACK, "port": self._before.airborne}
             files["mission_control.yml"] = {"listener": {"port": 0}, "remote_server": uplink}

@@ -18,6 +18,7 @@ from up_simulator.scenario.initial_conditions import (
     WeatherPart,
 )
 from up_simulator.scenario.sticks import StickPoint
+from up_simulator.sensors.chips import CHIPS
 
 _NAME = Constraint(str, max_length=128)
 _TEXT = Constraint(str, max_length=4096)
@@ -47,6 +48,15 @@ class PhonePart:
         "off", "How it sends its own orientation, 50 times a second."
     )
     battery_percent: float = key(100.0, "Battery level.", unit="%", minimum=0, maximum=100)
+
+
+@dataclass(frozen=True, slots=True)
+class GpsPart:
+    """A u-blox receiver at a serial port of the Raspberry Pi, which gps.yml then names."""
+
+    rate_hz: int = key(10, "Fixes that it is set to.", unit="Hz", minimum=1, maximum=10)
+    cold_s: float = key(0.0, "Time without a fix at first.", unit="s", minimum=0, maximum=600)
+    is_exact: bool = key(False, "Whether it has no error.", name="exact")
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +160,12 @@ class Scenario:
     )
     raspilot: RaspilotPart = section(RaspilotPart)
     phone: PhonePart | None = section(PhonePart, optional=True)
+    gps: GpsPart | None = section(GpsPart, optional=True)
+    sensors: tuple[str, ...] = items(
+        Constraint(str, choices=tuple(CHIPS)),
+        "Chips at the I2C bus of the Raspberry Pi, which sensors.yml then names; in process only.",
+        max_length=8,
+    )
     ground: GroundPart | None = section(GroundPart, optional=True)
     link: LinkPart = section(LinkPart)
     sticks: tuple[StickPoint, ...] = items(
@@ -164,6 +180,8 @@ class Scenario:
     def problems(self) -> Iterator[tuple[str, str]]:
         if not self.title:
             yield "title", "must be a short title of the flight"
+        if self.sensors and self.is_real:
+            yield "sensors", "fly only with 'runs: in process'"
         if not self.expect:
             yield "expect", "must contain at least one expectation"
 

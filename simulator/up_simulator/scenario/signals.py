@@ -14,10 +14,11 @@ from up.commands.board_schema import (
 )
 from up.commands.telemetry_schema import FIELDS
 from up.fields import suggestion
+from up_simulator.sensors.chips import CHIPS
 
 _MODES = tuple(FLIGHT_MODES.values())
 _POSITIONS = tuple(SWITCH_POSITIONS.values())
-_SOURCES = ("arduino", "android")
+_SOURCES = ("arduino", "android", "gps", *CHIPS)
 _CAUSES = tuple(RESET_CAUSES.values())
 _VALUES: dict[str, tuple[str, ...]] = {
     "board.mode": _MODES,

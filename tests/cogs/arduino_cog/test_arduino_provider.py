@@ -92,6 +92,7 @@ def test_telemetry_has_the_arduinos_keys(rig):
         "receiver_valid": True,
         "imu_valid": True,
         "flight_battery_v": None,
+        "flight_battery_a": None,
         "flight_battery_low": None,
         "flight_battery_critical": None,
     }

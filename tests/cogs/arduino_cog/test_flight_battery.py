@@ -7,6 +7,9 @@ from arduino_cog.config import FLIGHT_BATTERY
 from arduino_cog.modules.flight_battery import FlightBattery
 from twisted.logger import globalLogPublisher
 
+from up.commands.flight_state_command import FlightBatteryCommand
+from up.commands.origin import Origin
+from up.commands.roles import Role
 from up.config import ConfigErrors
 
 LIMITS = {"flight_battery.yml": "low_v: 10.5\ncritical_v: 9.9\n"}
@@ -106,3 +109,25 @@ def test_a_sag_is_a_failure_only_while_it_lasts(make_rig):
         seen.append(tuple(battery.failures.values()))
     none = (False, False)
     assert seen == [none, none, (True, False), none, (True, True)]
+
+
+def test_a_sensor_comes_before_the_arduino_until_it_is_silent(make_rig):
+    rig = make_rig("checked", LIMITS)
+    rig.connect()
+    executor, sources = rig.up.command_executor, []
+    executor.register_command(FlightBatteryCommand, lambda _: sources.append(executor.origin.link))
+
+    def measure(voltage_v, current_a, link="main", priority=20):
+        origin = Origin(link, Role.SENSOR, priority)
+        executor.execute_command(FlightBatteryCommand(voltage_v, current_a), origin)
+
+    assert say(rig, 11.1) == (11.1, False, False)
+    measure(10.4, 7.5)
+    measure(12.0, 0.1, "spare", 10)
+    assert say(rig, 11.1) == (10.4, True, False)
+    assert rig.up.telemetry_controller.collect()["arduino"]["flight_battery_a"] == 7.5
+    assert rig.up.get_module(FlightBattery).failures["flight_battery_low"]
+    assert sources == ["arduino", "main", "spare"], "the Arduino's is not published beside it"
+    rig.advance(2.1)
+    assert say(rig, 11.1) == (11.1, False, False)
+    assert rig.up.telemetry_controller.collect()["arduino"]["flight_battery_a"] is None

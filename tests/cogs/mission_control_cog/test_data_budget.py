@@ -49,6 +49,13 @@ def test_first_there_are_fewer_frames_then_less_detail():
     assert levels.count(1) + levels.count(2) > 0.8 * len(levels)
 
 
+def test_a_connection_that_is_made_costs_no_detail():
+    _, frames = fly(5.0, 60, extra=lambda now_s: 3000 if now_s < 0.15 else 0)
+    budget, _ = fly(5.0, 4, extra=lambda now_s: 3000 if now_s < 0.15 else 0)
+    assert budget.level == 0
+    assert {level for _, level in frames} == {0}
+
+
 def test_the_detail_comes_back():
     budget, _ = fly(4.5, 300, extra=lambda now_s: 300 if now_s < 100 and now_s % 1 < 0.05 else 0)
     assert budget.level == 0
@@ -59,6 +66,18 @@ def test_a_burst_of_other_data_never_silences_attitude_for_longer_than_a_second(
     pauses = [after[0] - before[0] for before, after in pairwise(frames)]
     assert max(pauses) <= SLOWEST_S + 0.11
     assert len(HOLDS_S) == len(COSTS)
+
+
+def test_an_alarm_leaves_at_once_but_many_of_them_do_not_break_the_budget():
+    budget = DataBudget(2.7, 0.0)
+    budget.count(1000, 1.0)
+    assert budget.permits(1.0)
+    assert not budget.permits(1.1)
+    assert budget.permits(1.1, is_urgent=True)
+    for tick in range(12, 6000):
+        now_s = tick / 10
+        budget.count(250 * budget.permits(now_s, is_urgent=True), now_s)
+    assert budget.mb / (600 / 3600) == pytest.approx(2.7, rel=0.05)
 
 
 def test_a_link_whose_bytes_are_not_known_sends_every_frame():

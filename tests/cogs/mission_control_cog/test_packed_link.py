@@ -4,7 +4,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.cogs.mission_control_cog.virtual_link import Flying, Ground, Net
+from tests.cogs.mission_control_cog.virtual_link import STEP_S, Flying, Ground, Net
+from up.base_module import BaseModule
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
+from up.commands.roles import Role
+from up.protocols.attitude_frame import is_attitude
+from up.protocols.binary_line import to_body
 
 RECOVERY_S = 1.0
 
@@ -79,11 +86,11 @@ def test_an_aircraft_that_hangs_is_found_idle(net):
 
 def test_the_lease_of_a_watched_aircraft_is_as_short_as_ever(net):
     silent, _ = net.hello_air("a", " packed=1")
-    silent.expect("UP1 watch grounds=0 packed=1\n")
+    silent.expect("UP1 watch grounds=0 packed=1 attitude=1\n")
     net.pass_time(14)
     net.air("UP1 aircraft=a\n").expect("code=taken")
     ground, _ = net.hello_ground("a", extra=" packed=1")
-    silent.expect("UP1 watch grounds=1 packed=1\n")
+    silent.expect("UP1 watch grounds=1 packed=1 attitude=0\n")
     net.pass_time(2.5, (ground,))
     net.air("UP1 aircraft=a\n").expect("code=taken")
     net.pass_time(1, (ground,))
@@ -133,6 +140,84 @@ def test_the_budget_holds_and_what_it_leaves_out_is_not_lost(net, tmp_path):
     uplink = ground.frames[-1][1].data["uplink"]
     assert uplink["mb_per_hour"] == pytest.approx(spent, rel=0.05)
     assert uplink["left_out"] > 300
+
+
+class Board(BaseModule):
+    """Circles in a climb, measured 20 times a second, the altitude twice."""
+
+    is_armed, item = True, 1
+
+    @property
+    def telemetry_content(self):
+        ages = {"flight": 100}
+        return {"armed": self.is_armed, "age_ms": ages, "mission": {"item": self.item}}
+
+    def measure(self):
+        now_s = self.context.reactor.seconds()
+        execute = self.up.command_executor.execute_command
+        turn = OrientationCommand(now_s % 60, now_s % 20, 5 * now_s % 360, 1.0, 2.0, 3.0)
+        execute(turn, Origin("board", Role.BOARD))
+        if round(20 * now_s) % 10 == 0:
+            execute(AltitudeCommand(now_s), Origin("phone", Role.SENSOR))
+
+
+class Circling(Flying):
+    """An aircraft with a board and a data budget of 1.9 MB/h."""
+
+    def __init__(self, net, folder):
+        super().__init__(net, folder, "data_budget_mb_per_hour: 1.9\n", (Board,))
+        self.board = self.up.get_module(Board)
+
+    def run(self, seconds):
+        for _ in range(round(seconds / STEP_S)):
+            self.board.measure()
+            self.net.run(STEP_S)
+
+
+def test_with_a_small_budget_attitude_is_sent_alone_and_the_rest_keeps_its_age(net, tmp_path):
+    aircraft = Circling(net, tmp_path / "a")
+    ground = Ground(net, tmp_path / "g")
+    aircraft.run(30)
+    before, bytes_out = len(ground.frames), aircraft.wire.bytes_out
+    aircraft.run(30)
+    frames = ground.frames[before:]
+    assert len(frames) > 3.9 * 30
+    assert (aircraft.wire.bytes_out - bytes_out) / len(frames) < 35
+    assert ground.telemetry.lost == 0
+    assert ground.link.status.dropped == 0
+    wholes = [each for each in frames if each[1].data["rates"]["roll"] is not None]
+    assert 6 <= len(wholes) <= 10
+    for now_s, message in frames:
+        content = message.data
+        made_s = content["system"]["clock_ms"] / 1000
+        assert made_s == pytest.approx(now_s, abs=0.06)
+        assert content["orientation"]["yaw"] == pytest.approx(5 * made_s % 360, abs=0.31)
+        assert content["age_ms"]["orientation"] == 0
+        # The altitude is the time at which it was measured, to the resolution of its age.
+        age_ms = 1000 * (made_s - content["altitude"])
+        assert content["age_ms"]["altitude"] == pytest.approx(age_ms, abs=320)
+    # What changed is there immediately: an alarm, and a value that no age would show to be old.
+    for armed, item in ((False, 1), (True, 2), (True, 3)):
+        aircraft.board.is_armed, aircraft.board.item = armed, item
+        aircraft.run(0.2)
+        assert ground.telemetry.flag("armed") is armed
+        assert ground.telemetry.number("mission", "item") == item
+        aircraft.run(2.3)
+
+
+def test_one_ground_that_reads_no_attitude_frames_gets_none_and_nor_do_the_others(net, tmp_path):
+    aircraft = Circling(net, tmp_path / "a")
+    ground = Ground(net, tmp_path / "g")
+    aircraft.run(10)
+    assert None in {each.data["rates"]["roll"] for _, each in ground.frames}
+    old, _ = net.hello_ground("a", "listen", extra=" packed=1")
+    aircraft.run(1)
+    old.heard, before = b"", len(ground.frames)
+    aircraft.run(10)
+    lines = [line for line in old.heard.split(b"\n") if line and not line.startswith(b"UP1")]
+    assert len(lines) > 15
+    assert not any(is_attitude(to_body(line)) for line in lines)
+    assert {each.data["rates"]["roll"] for _, each in ground.frames[before:]} == {1.0}
 
 
 def test_an_old_proxys_aircraft_sends_whole_frames(net, tmp_path):

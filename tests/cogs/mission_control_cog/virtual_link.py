@@ -129,13 +129,16 @@ class Net(Bench):
 
 
 class Flying:
-    """An aircraft with telemetry and its uplink."""
+    """An aircraft with telemetry and its uplink; `modules` are further ones."""
 
-    def __init__(self, net, folder, text=""):
+    def __init__(self, net, folder, text="", modules=()):
         port = net.proxy.airborne_port
         config = f"remote_server: {{url: 127.0.0.1, port: {port}}}\naircraft: a\n{text}"
         self.up = build_up(
-            (MissionControlProvider,), net.reactor, folder, config={"mission_control.yml": config}
+            (MissionControlProvider, *modules),
+            net.reactor,
+            folder,
+            config={"mission_control.yml": config},
         )
         self.provider = self.up.get_module(MissionControlProvider)
         self.life = LifeCycle(self.up)

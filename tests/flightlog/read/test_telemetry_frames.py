@@ -77,6 +77,7 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     assert list(first["servo"].values()) == [11, 12, 13, 14]
     assert first["location"] == {
         "latitude": 50.0, "longitude": 14.0, "altitude": 300.0, "satellites": 9,
+        "accuracy": None, "fix": None, "pdop": None,
     }  # fmt: skip
     assert first["home"] == {"distance": 0.0, "bearing": 0.0}
     assert first["altitude"] == 301.0

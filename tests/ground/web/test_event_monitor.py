@@ -5,10 +5,11 @@ import copy
 import pytest
 
 from tests.ground.aircraft import frame
+from up.commands.event_rules import Report
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EVENTS_KEPT, EventMonitor
-from up_ground.web.event_rules import LinkSnapshot, Report
+from up_ground.web.event_rules import LinkSnapshot
 
 QUIET = LinkSnapshot(True, "", True, True, False)
 

@@ -277,7 +277,7 @@ def test_a_fix_comes_once_a_second_with_the_delay_of_the_seed_and_says_how_old_i
 
 def test_an_exact_receiver_has_no_error_and_a_fix_at_each_of_its_periods():
     gps = Gps()
-    gps.sensors.use_exact_receiver(0.1)
+    gps.sensors.use_receiver(0.1)
     fixes = gps.fly(5)
     assert len(fixes) >= 48
     for came_s, at_s, fix in fixes:

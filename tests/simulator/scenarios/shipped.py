@@ -14,7 +14,7 @@ SCENARIOS = {path.stem: read_scenario(path) for path in shipped_paths()}
 REAL = [name for name, each in SCENARIOS.items() if each.is_real]
 WITH_DAEMON = [name for name, each in SCENARIOS.items() if each.has_raspilot and name not in REAL]
 ALONE = [name for name, each in SCENARIOS.items() if not each.has_raspilot]
-LONG_S = 45.0
+LONG_S = 24.0
 """Longer ones, with their control run, use the host build of the same sources: the chip takes three
 times as long. Not those that limit the lateness of the loop, which only the chip has."""
 

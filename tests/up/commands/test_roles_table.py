@@ -47,7 +47,8 @@ WHO = {
         "arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.battery.calibrate", "up.disarm",
     ),
     "sensor": (
-        "android.battery", "black_box.record", "up.altitude.change", "up.heading.change",
+        "android.battery", "black_box.record", "up.airspeed.update", "up.altitude.change",
+        "up.flight_battery.update", "up.heading.change",
         "up.location.change", "up.location.update", "up.orientation.update",
     ),
     "board": (
@@ -68,6 +69,7 @@ SAMPLES = {
     "up.telemetry.update": {"content": {}, "beacon": 1},
     "up.telemetry.frequency": {"frequency": 100},
     "up.location.update": {"latitude": 1, "longitude": 2},
+    "up.airspeed.update": {"airspeed": 11},
     "up.altitude.change": {"altitude": 1},
     "up.heading.change": {"heading": 1, "mode": "actual"},
     "up.acceleration.update": {"forward": 1},

@@ -9,12 +9,13 @@ import pytest
 from up.protocols import handshake
 from up.protocols.aircraft_sessions import IDLE_MS, SESSIONS_PER_KEY, AircraftSessions, Key, Session
 from up.protocols.binary_line import to_body, to_line
-from up.protocols.envelope import HEADER_BYTES, EnvelopeError, Stream, expand, extract
+from up.protocols.envelope import HEADER_BYTES, MAC_BYTES, EnvelopeError, Stream, expand, extract
 from up.protocols.ground_session import GroundSession
 from up.protocols.handshake import Answer, Refusal
 from up.protocols.line_decoder import LineDecoder
 
 VECTORS = json.loads(Path("tests/vectors/envelope.json").read_text(encoding="utf-8"))
+ATTITUDE = bytes.fromhex("01031d8107120503 01f4ff85002d0e0ffe")
 KEY = Key(bytes(range(8)), bytes(range(32)), "tablet", "pilot")
 
 
@@ -56,12 +57,15 @@ def test_the_golden_vectors():
         "command": command,
         "ack": session.answers.seal(b'{"name":"up.ack"}'),
         "telemetry": air.seal_frame(b'{"name":"up.telemetry.update"}'),
+        "attitude": air.seal_frame(ATTITUDE),
         "message": air.seal_message(b'{"name":"up.system.state"}'),
         "refusal": air.replace_keys({})[0][1][1],
         "line": to_line(command),
     }
     assert isinstance(said, Answer)
     assert {name: body.hex() for name, body in found.items()} == VECTORS["session"]
+    assert ground.open(found["telemetry"]) == b'{"name":"up.telemetry.update"}'
+    assert ground.open(found["attitude"]) == ATTITUDE
 
 
 def test_hkdf_is_that_of_rfc_5869():
@@ -82,6 +86,39 @@ def test_both_ends_agree_and_the_header_has_28_bytes():
         assert ground.open(to_body(line)) == payload
     assert ground.open(air.seal_message(b"{}")) == b"{}"
     assert ground.open(session.answers.seal(b"{}")) == b"{}"
+
+
+def test_a_short_body_is_taken_once_in_order_and_unchanged():
+    air, ground, _ = opened()
+    first, second = (air.seal_frame(ATTITUDE) for _ in range(2))
+    assert len(first) == 2 + MAC_BYTES + len(ATTITUDE)
+    changed = bytes([*second[:-1], second[-1] ^ 1])
+    for bad, code in ((changed, "forged"), (second[:17], "malformed"), (second[:1], "malformed")):
+        with pytest.raises(EnvelopeError, match=code):
+            ground.open(bad)
+    assert ground.open(second) == ATTITUDE
+    for old in (first, second):
+        with pytest.raises(EnvelopeError, match="forged"):
+            ground.open(old)
+    # Without a session it asks for one, as any message to all grounds does.
+    with pytest.raises(EnvelopeError, match="unknown_stream"):
+        pair()[1].open(first)
+
+
+@pytest.mark.parametrize(("lost", "is_read"), [(255, True), (256, False)])
+def test_short_bodies_survive_the_loss_of_255(lost, is_read):
+    air, ground, _ = opened()
+    for _ in range(lost):
+        air.seal_frame(ATTITUDE)
+    body = air.seal_frame(ATTITUDE)
+    if is_read:
+        assert ground.open(body) == ATTITUDE
+        return
+    with pytest.raises(EnvelopeError, match="forged"):
+        ground.open(body)
+    # A whole frame brings the counter.
+    assert ground.open(air.seal_frame(b"{}")) == b"{}"
+    assert ground.open(air.seal_frame(ATTITUDE)) == ATTITUDE
 
 
 def test_a_message_of_another_ground_is_no_error():
@@ -266,6 +303,7 @@ def attack(count, seed=1):
     air, ground, session = opened()
     bodies = [ground.seal(b'{"name":"up.arm","id":"%d"}' % number) for number in range(8)]
     bodies += [ground.hello(), air.seal_frame(b"{}"), session.answers.seal(b"{}")]
+    bodies.append(air.seal_frame(ATTITUDE))
     bodies.append(air.answer(ground.hello())[1])
     accepted = 0
     for number in range(count):

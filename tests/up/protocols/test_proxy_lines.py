@@ -48,7 +48,8 @@ def test_golden_vectors(vector):
         assert refused.value.code == vector["error"]
         return
     access = vector["seat"] and Access(vector["seat"])
-    hello = Hello(vector["aircraft"], access, vector["token"], vector.get("packed", False))
+    reads = (vector.get(each, False) for each in ("packed", "attitude"))
+    hello = Hello(vector["aircraft"], access, vector["token"], *reads)
     assert parse_hello(line, side) == hello
     if "future" not in vector["line"]:
         assert hello.encode() == line
@@ -187,8 +188,8 @@ def test_mutated_hellos():
         ("seat request", ControlRequest()),
         ("seat release", ControlRelease()),
         ("seat give to=12", ControlGive(12)),
-        ("watch grounds=0 packed=1", Watchers(0, 1)),
-        ("watch grounds=12 packed=0", Watchers(12, 0)),
+        ("watch grounds=0 packed=1 attitude=1", Watchers(0, 1, 1)),
+        ("watch grounds=12 packed=0 attitude=0", Watchers(12, 0)),
         ("key", KeyRequest()),
     ],
 )

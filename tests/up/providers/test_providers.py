@@ -190,6 +190,7 @@ def test_a_fix_of_the_vectors_reaches_telemetry_with_age_and_satellites(rig):
     assert {**fix, **value.data} == {**value.data, **fix}
     assert rig.up.telemetry_controller.collect()["location"] == {
         "latitude": 48.1485912, "longitude": 17.1077499, "altitude": 151.3, "satellites": 9,
+        "accuracy": 3.1, "fix": None, "pdop": None,
     }  # fmt: skip
     for satellites in (-1, 256, 8.5, True):
         with pytest.raises(InvalidCommandError):

@@ -51,7 +51,11 @@ class AndroidProvider(BaseStartedModule):
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the phone's ports: its sensors have no key."""
-        if not stays_here(self.config.address):
+        if stays_here(self.config.address):
+            return
+        if self.config.i_accept_plain:
+            yield "i_accept_plain", "any address may send sensor data unprotected, as a phone"
+        else:
             yield "address", "phones on this network send sensor data unprotected"
 
     def on_init(self) -> None:

@@ -67,7 +67,7 @@ class GroundListener(BaseStartedModule):
         self._port: Any = None
         self._has_owner = False
         self._limited = Limited(self.context.reactor, _LOG_INTERVAL_S)
-        self.mission_control.add_outlet(self._grounds)
+        self.mission_control.add_outlet(self._grounds, LINK)
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the listener, unless it has TLS or requires protection."""

@@ -12,7 +12,7 @@ from mission_control_cog.audit_log import AuditLog
 from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.data_budget import DataBudget
 from mission_control_cog.protection import Protection
-from mission_control_cog.thinning import Thinning
+from mission_control_cog.thinning import Thinning, events_of
 from mission_control_cog.tuning_policy import TuningPolicy
 from mission_control_cog.uplink import Uplink
 from up.commands.answer_commands import CommandAnsweredCommand
@@ -35,11 +35,14 @@ ROLE_KEY = "mission_control.yml: role"
 PLAIN_KEY = "mission_control.yml: i_accept_plain"
 SECURITY_KEY = "mission_control.yml: remote_server.security"
 UNPROTECTED = "this link requires protected messages: pair this device ('up keys add')"
-AUDITED = frozenset({LINK, "ground"})
 
 
 UNWATCHED_PERIOD_S = 10.0
 """Period of telemetry while the proxy counts no ground."""
+
+
+def _have_same_events(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    return events_of(one) == events_of(other)
 
 
 class Outlet(Protocol):
@@ -68,9 +71,11 @@ class MissionControlProvider(BaseMissionControlProvider):
         super().__init__(config, silent)
         self._uplink: Uplink | None = None
         self._outlets: list[Outlet] = []
+        self._audited = {LINK}
         self._telemetry_faults = 0
         self._thinning = Thinning()
         self._sent_s = 0.0
+        self._events: list[Any] = []
         self._requires_protection = False
         self._audit: AuditLog | None = None
 
@@ -109,9 +114,10 @@ class MissionControlProvider(BaseMissionControlProvider):
                 tls=TLSFiles(self.context.config_folder / server.tls) if server.tls else None,
             )
 
-    def add_outlet(self, outlet: Outlet) -> None:
-        """Send all data for the ground to ``outlet`` too."""
+    def add_outlet(self, outlet: Outlet, link: str) -> None:
+        """Send all data for the ground to ``outlet`` too; the Commands of its link are audited."""
         self._outlets.append(outlet)
+        self._audited.add(link)
 
     @property
     def connected(self) -> bool:
@@ -154,10 +160,10 @@ class MissionControlProvider(BaseMissionControlProvider):
         }
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
-        """Yield the link to the proxy, unless it surely requires protection."""
+        """Yield the link to the proxy, unless it has TLS or surely requires protection."""
         server, accepts = self.config.remote_server, self.config.i_accept_plain
         requires = "require" in (server.security, self.config.secrecy)
-        if not server.url or stays_here(server.url) or requires:
+        if not server.url or stays_here(server.url) or server.tls or requires:
             return
         if server.security != "auto" or accepts:
             yield "remote_server.security", "the link to the proxy takes plain Commands"
@@ -223,15 +229,20 @@ class MissionControlProvider(BaseMissionControlProvider):
             budget.left_out += 1
             return
         required = self._requires_protection
-        if (required and not self.protection.sessions) or not budget.permits(now_s):
+        if required and not self.protection.sessions:
             return
-        self._sent_s = now_s
         content, beacon = command.content, command.beacon
+        events = events_of(content)
+        if not budget.permits(now_s, is_urgent=events != self._events):
+            return
+        self._sent_s, self._events = now_s, events
         if uplink.may_pack:
-            content = self._thinning.apply(content, now_s, budget.hold_s)
+            # Attitude frames in between, or whole frames that repeat most of their values.
+            whole_s = budget.hold_s if uplink.may_shorten else 0.0
+            content = self._thinning.apply(content, now_s, 0.0 if whole_s else budget.hold_s)
             frame = encode(command.NAME, content, None, beacon, is_compact=True)
             lines = partial(self.protection.frame_lines, is_required=required)
-            uplink.send_packed(frame, lines)
+            uplink.send_packed(frame, lines, whole_s, _have_same_events if whole_s else None)
         else:
             self._transmit_newest(encode(command.NAME, content, None, beacon))
 
@@ -260,7 +271,7 @@ class MissionControlProvider(BaseMissionControlProvider):
         state = os.environ.get("STATE_DIRECTORY", "").partition(":")[0]
         path = self.config.audit_log or (state and f"{state}/audit.jsonl")
         if path:
-            self._audit = AuditLog(self.context.reactor, Path(path), AUDITED)
+            self._audit = AuditLog(self.context.reactor, Path(path), self._audited)
             self.up.command_executor.register_command(
                 CommandAnsweredCommand, self._audit.on_answered
             )

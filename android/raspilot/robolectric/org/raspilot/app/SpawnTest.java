@@ -2,10 +2,13 @@ package org.raspilot.app;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertTrue;
 import static org.robolectric.Shadows.shadowOf;
 
+import android.content.Context;
 import android.content.Intent;
+import android.content.SharedPreferences;
 import java.io.IOException;
 import org.junit.After;
 import org.junit.Before;
@@ -41,13 +44,18 @@ public final class SpawnTest extends AppBench {
         runner.close();
     }
 
-    private void ask() throws Exception {
+    private Intent wish() {
         handset.open();
         find(R.id.run_switch).performClick();
         Intent wish = shadowOf(handset.application).getNextStartedService();
         assertEquals(SpawnService.class.getName(), wish.getComponent().getClassName());
         assertTrue(RaspilotApplication.of(handset.application).spawning().isAsking());
         assertEquals(handset.application.getString(R.string.cancel), text(R.id.run_switch));
+        return wish;
+    }
+
+    private void ask() throws Exception {
+        Intent wish = wish();
         Robolectric.buildService(SpawnService.class, wish).create().startCommand(0, 1);
         Wait.until("the answer",
                 () -> !RaspilotApplication.of(handset.application).spawning().isAsking());
@@ -64,6 +72,36 @@ public final class SpawnTest extends AppBench {
         mustSay("\"aircraft\": \"glider-5\"", runner.heard().get(0));
         assertFalse(handset.startWished());
         mustSay("Unknown profile", text(R.id.run_link));
+    }
+
+    /** The person who has paired expects a refusal, and no request that any relay can change. */
+    @Test
+    @Config(sdk = 16)
+    public void withAKeyThatIsGoneOrUnreadableNothingIsAsked() throws Exception {
+        PairingStore keys = new PairingStore(handset.application);
+        keys.put(Pairing.parse(KeySettingsTest.TEXT.replace("glider-1", "glider-5")));
+        SharedPreferences file =
+                handset.application.getSharedPreferences("up_keys", Context.MODE_PRIVATE);
+        for (Boolean isDamaged : new Boolean[] {true, false}) {
+            Intent wish = wish();
+            // After the request, before its service runs. A file of the system's that it cannot
+            // read is an empty one.
+            if (isDamaged) {
+                file.edit().putString("glider-5", "keystore AAAA").commit();
+            } else {
+                file.edit().clear().commit();
+            }
+            Robolectric.buildService(SpawnService.class, wish).create().startCommand(0, 1);
+            Wait.until("the answer",
+                    () -> !RaspilotApplication.of(handset.application).spawning().isAsking());
+            assertTrue(runner.heard().isEmpty());
+            assertFalse(handset.startWished());
+            mustSay("(" + SpawnService.KEY_UNREADABLE + ")", text(R.id.run_link));
+            assertTrue(keys.aircraft().contains("glider-5"));
+            keys.put(Pairing.parse(KeySettingsTest.TEXT.replace("glider-1", "glider-5")));
+        }
+        keys.forget("glider-5");
+        assertNull(keys.get("glider-5"));
     }
 
     @Test

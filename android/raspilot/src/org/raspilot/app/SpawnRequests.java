@@ -64,7 +64,8 @@ final class SpawnRequests {
     private void onResult(SpawnResult result) {
         RunnerAnswer answer = result.answer;
         if (answer == null) {
-            application.log(application.getString(R.string.spawn_failed, result.sentence));
+            application.log(application.getString(R.string.spawn_failed, result.sentence,
+                    result.code));
         } else {
             application.log(application.getString(R.string.spawn_runs, result.sentence,
                     answer.endpoint));

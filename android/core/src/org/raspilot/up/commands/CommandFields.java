@@ -71,6 +71,11 @@ public final class CommandFields {
         return data.containsKey(key) ? choice(key, choices) : otherwise;
     }
 
+    /** Returns one of the choices, or null. */
+    public String optionalChoice(String key, List<String> choices) {
+        return data.get(key) == null ? null : choice(key, choices);
+    }
+
     @SuppressWarnings("unchecked")
     public Map<String, Object> object(String key) {
         return (Map<String, Object>) checked(key, FieldRule.of(FieldType.OBJECT));

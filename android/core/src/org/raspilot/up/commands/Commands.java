@@ -32,6 +32,7 @@ public final class Commands {
     public static final String SPEAK = "android.speak";
     public static final String TELEMETRY = "up.telemetry.update";
     public static final String TELEMETRY_PERIOD = "up.telemetry.frequency";
+    private static final List<String> FIXES = Arrays.asList("2d", "3d", "dgps", "rtk");
     private static final List<String> VALUES = Arrays.asList("actual", "required");
     private static final CommandRegistry BUILTIN = CommandRegistry.builtin();
 
@@ -65,6 +66,9 @@ public final class Commands {
             fields.optionalNumber("required_bearing", -Double.MAX_VALUE, Double.MAX_VALUE);
             fields.optionalNumber("age_ms", 0, 60000);
             fields.optionalWhole("satellites", 0, 255);
+            fields.optionalChoice("fix", FIXES);
+            fields.optionalNumber("pdop", 0, 100);
+            fields.optionalNumber("climb", -200, 200);
         }), LOCATION_ALIAS);
         registry.register(MARK, rule(fields -> fields.inkedText("text", 200)));
         registry.register(NACK, rule(fields -> {

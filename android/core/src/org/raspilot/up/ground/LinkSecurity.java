@@ -88,8 +88,9 @@ final class LinkSecurity {
      * written it.
      */
     byte[] open(byte[] body) {
-        final boolean isPlain =
-                body[0] != BinaryLine.PROTECTED && body[0] != BinaryLine.HANDSHAKE;
+        final boolean isProtected =
+                body[0] == BinaryLine.PROTECTED || body[0] == BinaryLine.SHORT;
+        final boolean isPlain = !isProtected && body[0] != BinaryLine.HANDSHAKE;
         if (isPlain != (session == null)) {
             facts.unprotected++;
             return null;
@@ -98,7 +99,7 @@ final class LinkSecurity {
             return body;
         }
         try {
-            if (body[0] == BinaryLine.PROTECTED) {
+            if (isProtected) {
                 return session.open(body);
             }
             onReply(session.onHandshake(body));

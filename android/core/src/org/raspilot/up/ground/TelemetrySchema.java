@@ -63,20 +63,23 @@ public final class TelemetrySchema {
         put(READING_OF, "servo", "servo.ailerons", "servo.elevator", "servo.throttle",
                 "servo.rudder");
         put(READING_OF, "location", "location.latitude", "location.longitude", "location.altitude",
-                "home.distance", "home.bearing", "location.satellites");
-        put(READING_OF, "navigation", "navigation.latitude", "navigation.longitude",
+                "home.distance", "home.bearing", "location.satellites", "location.accuracy",
+                "location.fix", "location.pdop");
+        put(READING_OF, "navigation", "home.time_s", "navigation.latitude", "navigation.longitude",
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.course", "navigation.heading",
                 "navigation.wind.speed", "navigation.wind.from", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
-                "navigation.sd.heading", "navigation.motor_stopped");
+                "navigation.sd.heading", "navigation.motor_stopped", "mission.distance",
+                "fence.margin");
         put(READING_OF, "altitude", "altitude");
         put(READING_OF, "heading", "heading.actual", "heading.required");
         put(READING_OF, "flight", "flight_mode", "armed", "in_flight", "arduino.switch",
                 "arduino.receiver_valid", "arduino.imu_valid", "arduino.failsafe",
                 "arduino.bias_stored", "arduino.reset_cause", "arduino.restored", "arduino.loop_us",
                 "arduino.late_us", "arduino.frame_errors", "arduino.flight_battery_v",
-                "arduino.flight_battery_low", "arduino.flight_battery_critical");
+                "arduino.flight_battery_a", "arduino.flight_battery_low",
+                "arduino.flight_battery_critical");
         put(READING_OF, "battery", "android.batteryLevel");
         put(UNITS, "deg", "orientation.roll", "orientation.pitch", "orientation.yaw",
                 "location.latitude", "location.longitude", "home.bearing", "home.latitude",
@@ -90,13 +93,14 @@ public final class TelemetrySchema {
                 "arduino.loop_us", "arduino.late_us");
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
-                "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "mission.distance", "altitude", "altitude_required", "fence.margin", "fence.radius",
-                "fence.ceiling", "fence.floor");
+                "navigation.sd.altitude", "location.accuracy", "navigation.target.altitude",
+                "navigation.target.radius", "mission.distance", "altitude", "altitude_required",
+                "fence.margin", "fence.radius", "fence.ceiling", "fence.floor");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
         put(UNITS, "V", "arduino.flight_battery_v");
+        put(UNITS, "A", "arduino.flight_battery_a");
         put(UNITS, "%", "android.batteryLevel", "load.cpu", "load.ram");
         put(UNITS, "ms", "load.delay_ms", "system.period_ms", "system.clock_ms",
                 "age_ms.orientation", "age_ms.rx", "age_ms.servo", "age_ms.flight",
@@ -109,8 +113,9 @@ public final class TelemetrySchema {
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
-                "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius",
-                "altitude", "uplink.mb_in_an_hour", "black_box.megabytes");
+                "navigation.sd.heading", "location.accuracy", "location.pdop",
+                "navigation.target.altitude", "navigation.target.radius", "altitude",
+                "arduino.flight_battery_a", "uplink.mb_in_an_hour", "black_box.megabytes");
         put(DECIMALS, 6, "location.latitude", "location.longitude", "home.latitude",
                 "home.longitude", "navigation.latitude", "navigation.longitude",
                 "navigation.target.latitude", "navigation.target.longitude");
@@ -171,9 +176,11 @@ public final class TelemetrySchema {
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
         NAVIGATION.put("Satellites", "location.satellites");
+        NAVIGATION.put("Fix accuracy", "location.accuracy");
         NAVIGATION.put("Mission item", "mission.item");
         NAVIGATION.put("Fence", "fence.margin");
         OPTIONAL.put("location.satellites", true);
+        OPTIONAL.put("location.accuracy", true);
         OPTIONAL.put("mission.item", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",

@@ -8,6 +8,7 @@ import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Random;
+import org.raspilot.up.wire.BinaryLine;
 
 /**
  * The end of a protected link in a ground device: sends hellos, checks answers, seals Commands,
@@ -28,6 +29,7 @@ public final class GroundSession {
     private byte[] lastNonce;
     private MessageStream commands;
     private MessageStream answers;
+    private MessageStream frames;
     private final Map<Integer, MessageStream> streams = new LinkedHashMap<>();
 
     public GroundSession(Pairing pairing) {
@@ -89,6 +91,12 @@ public final class GroundSession {
      * @throws EnvelopeException unknown_stream: the aircraft has restarted or has drawn a new key
      */
     public byte[] open(byte[] body) throws EnvelopeException {
+        if (body[0] == BinaryLine.SHORT) {
+            if (frames == null) {
+                throw new EnvelopeException("unknown_stream");
+            }
+            return frames.open(frames.restored(body));
+        }
         final int session = MessageStream.sessionOf(body);
         final MessageStream stream = streams.get(session);
         if (stream != null) {
@@ -107,6 +115,7 @@ public final class GroundSession {
             said.check(aircraft, secret);
             commands = null;
             answers = null;
+            frames = null;
             streams.clear();
         }
         return said;
@@ -123,8 +132,7 @@ public final class GroundSession {
             streamKey[at] ^= said.wrapped[at];
         }
         final byte[] all = new byte[0];
-        final MessageStream frames =
-                new MessageStream(streamKey, "telemetry", aircraft, all, said.broadcast);
+        frames = new MessageStream(streamKey, "telemetry", aircraft, all, said.broadcast);
         final MessageStream messages =
                 new MessageStream(streamKey, "message", aircraft, all, said.broadcast + 1);
         // Messages from before the hello are not live, and none is taken twice.

@@ -12,6 +12,7 @@ import org.raspilot.up.wire.BinaryLine;
 final class MessageStream {
     private static final int COUNTER_AT = 5;
     private static final int MAC_AT = 13;
+    private static final int SHORT_MAC_AT = 2;
     private static final int PAYLOAD_AT = MAC_AT + Hmac.MAC_BYTES;
 
     final int session;
@@ -43,6 +44,18 @@ final class MessageStream {
         counter++;
         return ByteBuffer.allocate(PAYLOAD_AT + payload.length).put(BinaryLine.PROTECTED)
                 .putInt(session).putLong(counter).put(mac(counter, payload)).put(payload).array();
+    }
+
+    /**
+     * Returns the protected body of a short one, which has of session and counter only the
+     * counter's last byte: the next body whose counter ends so.
+     */
+    byte[] restored(byte[] body) {
+        final int length = Math.max(0, body.length - SHORT_MAC_AT);
+        final long next = counter + 1;
+        final long number = length == 0 ? next : next + (body[1] - next & 0xff);
+        return ByteBuffer.allocate(MAC_AT + length).put(BinaryLine.PROTECTED).putInt(session)
+                .putLong(number).put(body, SHORT_MAC_AT, length).array();
     }
 
     /** Returns the payload; throws EnvelopeException: malformed, forged or replayed. */

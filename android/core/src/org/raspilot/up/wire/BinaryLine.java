@@ -8,10 +8,14 @@ import java.util.Arrays;
  * the byte with bit 6 inverted. Source: docs/protocols.md 4.
  */
 public final class BinaryLine {
-    /** The first byte of such a line: packed telemetry, a protected message, a handshake. */
+    /**
+     * The first byte of such a line: packed telemetry, a protected message, a handshake, a short
+     * protected message.
+     */
     public static final byte PACKED = 1;
     public static final byte PROTECTED = 2;
     public static final byte HANDSHAKE = 3;
+    public static final byte SHORT = 4;
 
     private static final byte LF = '\n';
     private static final byte ESC = 0x1b;
@@ -22,7 +26,7 @@ public final class BinaryLine {
 
     /** Returns whether a line or body with that first byte is binary. */
     public static boolean isType(byte first) {
-        return first >= PACKED && first <= HANDSHAKE;
+        return first >= PACKED && first <= SHORT;
     }
 
     /** Returns the line of a binary body, with its LF. */

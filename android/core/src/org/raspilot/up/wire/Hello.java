@@ -4,7 +4,7 @@ import java.util.regex.Pattern;
 
 /**
  * The first line of a ground to a proxy: which aircraft, which seat, the token that resumes it, and
- * that packed telemetry is read.
+ * that packed telemetry and attitude frames are read.
  *
  * <p>Source: docs/protocols.md 9.
  */
@@ -35,7 +35,7 @@ public final class Hello {
                     "the token must be 32 to 64 hexadecimal digits in lower case");
         }
         return Utf8.encode("UP1 aircraft=" + aircraft + " seat=" + seat.word()
-                + (token == null ? "" : " token=" + token) + " packed=1\n");
+                + (token == null ? "" : " token=" + token) + " packed=1 attitude=1\n");
     }
 
     /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */

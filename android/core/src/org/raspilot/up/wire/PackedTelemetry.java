@@ -8,7 +8,7 @@ import java.util.zip.Inflater;
 
 /**
  * Unpacks the frames of one aircraft: raw deflate with an earlier frame, the key, as dictionary.
- * Only the newest key is kept. Source: docs/protocols.md 6.
+ * Only the newest key is kept. In place of deflate data there may be an {@link AttitudeFrame}. Source: docs/protocols.md 6.
  */
 public final class PackedTelemetry {
     /** Code of a frame whose key was not received here. */
@@ -36,7 +36,11 @@ public final class PackedTelemetry {
         if (number != keyNumber && number != DICTIONARY_NUMBER) {
             throw new MalformedException(UNKNOWN_KEY, "the key of this frame was not received");
         }
-        final byte[] frame = inflate(body, number == keyNumber ? key : DICTIONARY);
+        final byte[] dictionary = number == keyNumber ? key : DICTIONARY;
+        if (AttitudeFrame.isType(body[HEAD_BYTES])) {
+            return AttitudeFrame.expand(dictionary, body, HEAD_BYTES);
+        }
+        final byte[] frame = inflate(body, dictionary);
         if ((head & KEY_FLAG) != 0) {
             key = frame;
             keyNumber = number(frame);

@@ -24,7 +24,7 @@ public final class GroundLinkTest {
         assertEquals(3004, bench.peer().port);
         bench.peer().accept();
         bench.loop.advance(0);
-        assertEquals("UP1 aircraft=glider seat=listen packed=1\n", bench.peer().written());
+        assertEquals("UP1 aircraft=glider seat=listen packed=1 attitude=1\n", bench.peer().written());
         assertEquals(LinkState.CONNECTING, bench.ground.status().link);
         bench.say("UP1 ok aircraft=glider seat=listen token=" + GroundBench.TOKEN);
         assertEquals(LinkState.OPEN, bench.status.link);
@@ -41,7 +41,7 @@ public final class GroundLinkTest {
         bench.loop.advance(700);
         bench.peer().accept();
         final String hello =
-                "UP1 aircraft=glider seat=command token=" + GroundBench.TOKEN + " packed=1\n";
+                "UP1 aircraft=glider seat=command token=" + GroundBench.TOKEN + " packed=1 attitude=1\n";
         assertEquals(hello, bench.peer().written());
         bench.ground.stop();
         bench.start(GroundBench.settings(ProxyRole.COMMAND, false));
@@ -60,7 +60,7 @@ public final class GroundLinkTest {
         bench.peer().end("lost");
         bench.loop.advance(700);
         bench.peer().accept();
-        assertEquals("UP1 aircraft=glider seat=listen packed=1\n", bench.peer().written());
+        assertEquals("UP1 aircraft=glider seat=listen packed=1 attitude=1\n", bench.peer().written());
     }
 
     @Test
@@ -103,7 +103,7 @@ public final class GroundLinkTest {
         assertTrue(bench.ground.requestControl());
         assertEquals(2, bench.network.connections.size());
         bench.peer().accept();
-        assertEquals("UP1 aircraft=glider seat=command packed=1\n", bench.peer().written());
+        assertEquals("UP1 aircraft=glider seat=command packed=1 attitude=1\n", bench.peer().written());
     }
 
     @Test

@@ -7,6 +7,7 @@ import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertThrows;
 
 import java.io.File;
+import java.math.BigInteger;
 import java.util.Arrays;
 import java.util.Map;
 import java.util.Random;
@@ -17,6 +18,8 @@ import org.raspilot.up.wire.Vectors;
 
 /** Envelope and handshake: golden vectors, and messages that must not be accepted. */
 public final class GroundSessionTest {
+    private static final String ATTITUDE = "01031d810712050301f4ff85002d0e0ffe";
+
     private final Pairing pairing = of("glider-1");
     private final TestAircraft air = new TestAircraft(pairing);
     private final GroundSession ground = new GroundSession("glider-1", pairing, drawn());
@@ -77,6 +80,13 @@ public final class GroundSessionTest {
         assertEquals(wanted.get("ack"), hexadecimal(air.reply("{\"name\":\"up.ack\"}")));
         assertEquals(wanted.get("telemetry"),
                 hexadecimal(air.frame("{\"name\":\"up.telemetry.update\"}")));
+        final byte[] attitude = new BigInteger(ATTITUDE, 16).toByteArray();
+        final byte[] sealed = air.frame(attitude);
+        final byte[] brief = Arrays.copyOfRange(sealed, 11, sealed.length);
+        brief[0] = BinaryLine.SHORT;
+        assertEquals(wanted.get("attitude"), hexadecimal(brief));
+        assertArrayEquals(attitude, ground.open(brief));
+        refused("forged", brief);
         assertEquals(wanted.get("message"),
                 hexadecimal(air.message("{\"name\":\"up.system.state\"}")));
         assertEquals(wanted.get("refusal"), hexadecimal(air.refuse(0)));

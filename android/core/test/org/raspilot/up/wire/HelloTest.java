@@ -18,7 +18,7 @@ public final class HelloTest {
         int written = 0;
         for (Map<String, Object> vector : Vectors.read("proxy_hello.json")) {
             String line = (String) vector.get("line");
-            if (vector.get("seat") != null && line.endsWith(" packed=1\n")) {
+            if (vector.get("seat") != null && line.endsWith(" packed=1 attitude=1\n")) {
                 assertEquals(line, Vectors.text(Hello.ofGround((String) vector.get("aircraft"),
                         ProxyRole.ofWord((String) vector.get("seat")),
                         (String) vector.get("token"))));

@@ -70,6 +70,19 @@ public final class PackedTelemetryTest {
     }
 
     @Test
+    public void attitudeFramesThatAreNotOneAreRefused() throws Exception {
+        final List<?> lines = (List<?>) Vectors.read("packed_telemetry.json").get(3).get("lines");
+        final byte[] body = bytes((String) lines.get(1));
+        refused(PackedTelemetry.UNKNOWN_KEY, body);
+        unpacker.unpack(bytes((String) lines.get(0)));
+        unpacker.unpack(body);
+        refused("packed", Arrays.copyOf(body, body.length - 1));
+        refused("packed", Arrays.copyOf(body, body.length + 1));
+        body[4] = 0x0f;
+        refused("packed", body);
+    }
+
+    @Test
     public void dataThatAreNotOneFrameAreRefused() throws Exception {
         final byte[] whole = packed(Vectors.bytes("{\"name\":\"x\"}"));
         unpacker.unpack(whole);
@@ -111,7 +124,7 @@ public final class PackedTelemetryTest {
             body[each] = (byte) (each - 1);
         }
         final LineSplitter splitter = new LineSplitter();
-        for (byte type = 1; type <= 3; type++) {
+        for (byte type = 1; type <= 4; type++) {
             body[0] = type;
             // The CR at the end of a body is a part of it.
             for (byte[] sent : new byte[][] {body, {type, '\r'}, {type, '\n', 27, 27}}) {

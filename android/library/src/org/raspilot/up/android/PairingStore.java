@@ -22,15 +22,20 @@ import org.raspilot.up.tls.TlsIdentity;
  */
 public final class PairingStore {
     private static final String FILE = "up_keys";
+    /** The names alone: the system shows a file that it cannot read as an empty one. */
+    private static final String NAMES = "up_key_names";
     /** No aircraft has this name. */
     private static final String CERTIFICATES = "tls:";
     private static final String ENCRYPTED = "keystore ";
     private static final Charset ASCII = Charset.forName("US-ASCII");
 
     private final SharedPreferences kept;
+    private final SharedPreferences names;
 
     public PairingStore(Context context) {
-        kept = context.getApplicationContext().getSharedPreferences(FILE, Context.MODE_PRIVATE);
+        Context application = context.getApplicationContext();
+        kept = application.getSharedPreferences(FILE, Context.MODE_PRIVATE);
+        names = application.getSharedPreferences(NAMES, Context.MODE_PRIVATE);
     }
 
     /** Returns whether the keystore of this phone's system encrypts the keys. */
@@ -38,11 +43,12 @@ public final class PairingStore {
         return Build.VERSION.SDK_INT >= 23;
     }
 
-    /** Returns the names of the aircraft whose keys are kept, sorted. */
+    /** Returns the names of the aircraft whose keys are kept, readable or not, sorted. */
     public Set<String> aircraft() {
-        Set<String> names = new TreeSet<>(kept.getAll().keySet());
-        names.remove(CERTIFICATES);
-        return names;
+        Set<String> found = new TreeSet<>(kept.getAll().keySet());
+        found.addAll(names.getAll().keySet());
+        found.remove(CERTIFICATES);
+        return found;
     }
 
     /**
@@ -118,11 +124,13 @@ public final class PairingStore {
         if (!kept.edit().putString(name, text).commit()) {
             throw new IllegalArgumentException("The phone's storage is full");
         }
+        names.edit().putBoolean(name, true).commit();
     }
 
     /** Removes the key of an aircraft. */
     public void forget(String aircraft) {
         kept.edit().remove(aircraft).commit();
+        names.edit().remove(aircraft).commit();
     }
 
     public void forgetCertificates() {
@@ -138,6 +146,9 @@ public final class PairingStore {
         if (value != null && isInKeystore()) {
             // The system was older when it was kept.
             put(name, value);
+        }
+        if (value == null && names.contains(name)) {
+            throw new GeneralSecurityException("it was kept, and is gone");
         }
         return value;
     }

@@ -18,6 +18,7 @@ import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 import org.raspilot.up.net.RunnerAnswer;
 import org.raspilot.up.net.RunnerClient;
 import org.raspilot.up.net.RunnerRequest;
+import org.raspilot.up.security.Pairing;
 import org.raspilot.up.tls.TlsIdentity;
 
 /**
@@ -26,6 +27,9 @@ import org.raspilot.up.tls.TlsIdentity;
  * the application starts its {@link BaseUpService}, which connects to the address from the runner.
  */
 public final class SpawnService extends IntentService {
+    public static final String KEY_UNREADABLE = "key_unreadable";
+    public static final String CERTIFICATES_UNREADABLE = "certificates_unreadable";
+
     private static final String TAG = "Up";
     /** Longer than the runner's own 20 s. */
     private static final long MAX_S = 30;
@@ -43,7 +47,8 @@ public final class SpawnService extends IntentService {
     }
 
     /**
-     * Sends a request, signed by this phone's key of the aircraft if there is one.
+     * Sends a request, signed by this phone's key of the aircraft if there is one. A key that is
+     * kept and cannot be read is the end of the request, with the code {@link #KEY_UNREADABLE}.
      *
      * @param isTls by TLS with this phone's certificates, or plain
      * @param aircraft the aircraft's name
@@ -83,12 +88,13 @@ public final class SpawnService extends IntentService {
             loop.start();
             loop.post(() -> send(intent, loop, results));
             SpawnResult result = results.poll(MAX_S, TimeUnit.SECONDS);
-            return result == null ? new SpawnResult(null, "the runner does not answer") : result;
+            return result != null ? result
+                    : new SpawnResult(null, "no_answer", "the runner does not answer");
         } catch (IOException failure) {
-            return new SpawnResult(null, failure.getMessage());
+            return new SpawnResult(null, "no_loop", failure.getMessage());
         } catch (InterruptedException interruption) {
             Thread.currentThread().interrupt();
-            return new SpawnResult(null, "the request was interrupted");
+            return new SpawnResult(null, "interrupted", "the request was interrupted");
         } finally {
             loop.stop();
         }
@@ -96,6 +102,7 @@ public final class SpawnService extends IntentService {
 
     private void send(Intent intent, Loop loop, BlockingQueue<SpawnResult> results) {
         final RunnerClient client;
+        String fault = CERTIFICATES_UNREADABLE;
         try {
             String aircraft = intent.getStringExtra(AIRCRAFT);
             PairingStore keys = new PairingStore(this);
@@ -105,25 +112,27 @@ public final class SpawnService extends IntentService {
             if (isTls && identity == null) {
                 throw new IllegalArgumentException("the certificates for TLS are gone");
             }
+            fault = KEY_UNREADABLE;
+            Pairing key = keys.get(aircraft);
+            fault = "request_invalid";
             client = new RunnerClient(loop, intent.getStringExtra(HOST),
                     intent.getIntExtra(PORT, 0), identity,
-                    new RunnerRequest(aircraft, intent.getStringExtra(PROFILE),
-                            keys.get(aircraft)));
+                    new RunnerRequest(aircraft, intent.getStringExtra(PROFILE), key));
         } catch (IllegalArgumentException wrong) {
-            results.add(new SpawnResult(null, wrong.getMessage()));
+            results.add(new SpawnResult(null, fault, wrong.getMessage()));
             return;
         }
         client.find(new DiscoveryListener() {
             @Override
             public void onFound(Endpoint place) {
                 RunnerAnswer answer = client.lastAnswer();
-                results.add(new SpawnResult(answer, answer.error == null ? answer.message
+                results.add(new SpawnResult(answer, "", answer.error == null ? answer.message
                         : answer.message + ": " + answer.error));
             }
 
             @Override
             public void onNotFound(String code, String reason) {
-                results.add(new SpawnResult(null, reason));
+                results.add(new SpawnResult(null, code, reason));
             }
         });
     }

@@ -54,7 +54,7 @@ final class LoopProgram implements FaultListener {
                 handle(part, parse(text));
                 wrong = 0;
             } catch (OptionException error) {
-                words.notice("invalid_input", error.getMessage());
+                words.notice(error.code, error.getMessage());
                 wrong++;
             }
         }
@@ -75,7 +75,7 @@ final class LoopProgram implements FaultListener {
             try {
                 part.onLine(line);
             } catch (OptionException error) {
-                words.notice("invalid_input", error.getMessage());
+                words.notice(error.code, error.getMessage());
             }
         });
     }

@@ -73,7 +73,7 @@ final class OptionParser {
         try {
             return TlsIdentity.parse(text.toString());
         } catch (TlsException error) {
-            throw new OptionException("--tls " + folder + ": " + error.getMessage());
+            throw new OptionException(error.code, "--tls " + folder + ": " + error.getMessage());
         }
     }
 
@@ -85,8 +85,15 @@ final class OptionParser {
     static final class OptionException extends Exception {
         private static final long serialVersionUID = 1;
 
+        final String code;
+
         OptionException(String sentence) {
+            this("invalid_input", sentence);
+        }
+
+        OptionException(String code, String sentence) {
             super(sentence);
+            this.code = code;
         }
     }
 }

@@ -10,9 +10,9 @@ from up.commands.command_link import CommandLink
 from up.commands.mission_commands import MissionPartCommand, MissionRequestCommand
 from up.commands.roles import Role
 from up.mission.items import plan_id
+from up.mission.plan_transfer import PlanTransfer
+from up.mission.reliable_requests import TRIES
 from up.protocols.general_message import decode, encode
-from up_ground.plan_transfer import PlanTransfer
-from up_ground.reliable_requests import TRIES
 
 LONG = [placed(300 + 100 * (each % 2), 60.0 * each) for each in range(75)]
 CORNERS = [[48.0 + each / 3e5, 16.5 + each / 7e3] for each in range(100)]

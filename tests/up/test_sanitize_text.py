@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_ground.sanitize_text import sanitize_text
+from up.sanitize_text import sanitize_text
 
 
 @pytest.mark.parametrize(

@@ -18,10 +18,10 @@ from up.commands.mission_commands import (
 from up.commands.refusal import Code
 from up.mission.items import PlanItem, plan_id
 from up.mission.plan import PlanError, PlanProblem, checked_items
+from up.mission.reliable_requests import ReliableRequests, Reply, SendCommand
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
-from up_ground.reliable_requests import ReliableRequests, Reply, SendCommand
-from up_ground.sanitize_text import sanitize_text
 
 WINDOW = 3
 """Parts that are unanswered at a time."""

@@ -10,8 +10,8 @@ from typing import Any
 from up.commands.command import BaseCommand
 from up.commands.refusal import Code
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
-from up_ground.sanitize_text import sanitize_text
 
 TRIES = 5
 RETRY_S, RETRY_FACTOR = 2.0, 1.5
@@ -49,9 +49,10 @@ class ReliableRequests:
     that arrived with an old beacon gets a new id.
     """
 
-    def __init__(self, clock: Clock, send: SendCommand) -> None:
+    def __init__(self, clock: Clock, send: SendCommand, tries: int = TRIES) -> None:
         self._clock = clock
         self._send = send
+        self._tries = tries
         self._waiting: dict[str, _Request] = {}
 
     def __len__(self) -> int:
@@ -75,7 +76,7 @@ class ReliableRequests:
             return
         data = message.data
         code, detail = (sanitize_text(data.get(key) or "", 32) for key in ("code", "detail"))
-        if code in _LATE and request.tries < TRIES:
+        if code in _LATE and request.tries < self._tries:
             self._try(secrets.token_hex(8), request)
             return
         reason = sanitize_text(data.get("reason") or "no reason given", 500)
@@ -94,8 +95,8 @@ class ReliableRequests:
 
     def _on_silence(self, id_: str) -> None:
         request: Any = self._waiting.pop(id_)
-        if request.tries < TRIES:
+        if request.tries < self._tries:
             self._try(id_, request)
         else:
-            text = f"no answer to {request.command.NAME}, sent {TRIES} times"
+            text = f"no answer to {request.command.NAME}, sent {request.tries} times"
             request.notify(Reply(NO_ANSWER, text))

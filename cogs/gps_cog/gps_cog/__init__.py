@@ -1,0 +1,1 @@
+"""A dedicated satellite receiver, for Up."""

@@ -1,0 +1,1 @@
+"""MAVLink aboard: ground stations that speak it watch and command the aircraft."""

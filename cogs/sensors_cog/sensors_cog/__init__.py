@@ -1,0 +1,1 @@
+"""Sensors at the I2C bus of the Raspberry Pi, for Up."""

@@ -1,0 +1,1 @@
+"""The chips, each by its data sheet."""

@@ -1,0 +1,68 @@
+"""The newest frame of telemetry, as the translation reads it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from up.commands.telemetry_schema import READINGS
+from up.flight_log.json_message import value_at
+
+MAX_POSITION_AGE_MS = READINGS["navigation"].stale_s * 1000
+_BOARD_FOLLOWS = ("SETPOINT", "RETURN", "OUTPUT")
+
+
+class Frame:
+    """Telemetry (docs/protocols.md, 6); a field of a wrong type counts as unknown."""
+
+    def __init__(self, content: Mapping[str, Any] | None = None, beacon: int | None = None) -> None:
+        self.content: Mapping[str, Any] = content or {}
+        self.beacon = beacon
+
+    def number(self, *path: str) -> float | None:
+        found = value_at(self.content, path)
+        is_number = isinstance(found, int | float) and not isinstance(found, bool)
+        return float(found) if is_number and math.isfinite(found) else None
+
+    def flag(self, *path: str) -> bool | None:
+        found = value_at(self.content, path)
+        return found if isinstance(found, bool) else None
+
+    def text(self, *path: str) -> str | None:
+        found = value_at(self.content, path)
+        return found if isinstance(found, str) else None
+
+    def texts(self, *path: str) -> list[str] | None:
+        """Return a list of texts; None: unknown."""
+        found = value_at(self.content, path)
+        return [str(each) for each in found] if isinstance(found, list | tuple) else None
+
+    def is_null(self, *path: str) -> bool:
+        """Return whether the aircraft reports null."""
+        above = value_at(self.content, path[:-1])
+        return isinstance(above, Mapping) and above.get(path[-1], "") is None
+
+    @property
+    def mode(self) -> str:
+        """Return the flight mode that acts: the Raspberry Pi's while it flies; empty: unknown."""
+        board = self.text("flight_mode") or ""
+        if board in _BOARD_FOLLOWS:
+            return self.text("flight_control", "mode") or board
+        return board
+
+    @property
+    def clock_ms(self) -> int:
+        """Return the aircraft's monotonic clock, 32 bits."""
+        return int(self.number("system", "clock_ms") or 0) & 0xFFFFFFFF
+
+    @property
+    def position(self) -> tuple[float, float] | None:
+        """Return the estimated position, deg, or the receiver's; None: too old or unknown."""
+        for part in ("navigation", "location"):
+            latitude, longitude = self.number(part, "latitude"), self.number(part, "longitude")
+            age_ms = self.number("age_ms", part)
+            is_old = age_ms is not None and age_ms > MAX_POSITION_AGE_MS
+            if latitude is not None and longitude is not None and not is_old:
+                return latitude, longitude
+        return None

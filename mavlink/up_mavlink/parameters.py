@@ -1,0 +1,119 @@
+"""Parameters: the gains, which can be set, and what else a ground station reads as numbers."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+from up.commands.command import BaseCommand
+from up.commands.gains import AXES, gain_set_from_data
+from up.commands.pid_tunings_commands import PIDTuningsCommand
+from up.commands.telemetry_commands import TelemetryFrequencyCommand
+from up_mavlink.frame import Frame
+
+REAL32 = 9
+"""MAV_PARAM_TYPE_REAL32, the type of every parameter."""
+PERIOD = "TELEM_PERIOD_MS"
+_LOOPS = {"RATE": "ratePIDs", "STAB": "stabPIDs"}
+_AXIS_NAMES = dict(zip(AXES, ("RLL", "PIT", "YAW"), strict=True))
+_GAINS = {
+    f"{loop}_{axis}_{term.upper()}": (key, place, term)
+    for loop, key in _LOOPS.items()
+    for place, axis in _AXIS_NAMES.items()
+    for term in "pid"
+}
+_READ_ONLY = {
+    "FENCE_RADIUS": ("fence", "radius"),
+    "FENCE_ALT_MAX": ("fence", "ceiling"),
+    "FENCE_ALT_MIN": ("fence", "floor"),
+}
+
+
+DOES_NOT_EXIST, OUT_OF_RANGE, NOT_PERMITTED, READ_ONLY = 1, 2, 3, 5
+"""Codes of PARAM_ERROR."""
+
+
+class ParameterRefusedError(Exception):
+    """A value that is not set; the text is the reason, ``code`` that of PARAM_ERROR."""
+
+    def __init__(self, reason: str, code: int) -> None:
+        super().__init__(reason)
+        self.code = code
+
+
+class Parameters:
+    """The parameters that the aircraft has now, by name, in a constant order."""
+
+    def __init__(self, system_id: int) -> None:
+        self._system_id = system_id
+        self._gains: Mapping[str, Any] | None = None
+
+    @property
+    def has_gains(self) -> bool:
+        return self._gains is not None
+
+    def on_gains(self, data: Mapping[str, Any]) -> None:
+        """Take a message of gains; an invalid one changes nothing."""
+        try:
+            gain_set_from_data(data)
+        except ValueError:
+            return
+        self._gains = data
+
+    def values(self, frame: Frame) -> dict[str, float]:
+        """Return all values."""
+        found = {"SYSID_THISMAV": float(self._system_id)}
+        known = {PERIOD: ("system", "period_ms"), **_READ_ONLY}
+        for name, path in known.items():
+            number = frame.number(*path)
+            if number is not None:
+                found[name] = number
+        for name, (loop, axis, term) in _GAINS.items():
+            gains = (self._gains or {}).get(loop, {}).get(axis)
+            if gains is not None:
+                found[name] = float(gains[term])
+        return dict(sorted(found.items()))
+
+    def set(self, name: str, value: float, type_: int, frame: Frame) -> BaseCommand | None:
+        """Return the Command that sets a parameter, None for one that has the value.
+
+        Raises ParameterRefusedError; InvalidCommandError for a value that is out of range.
+        """
+        present = self.values(frame).get(name)
+        if present is None:
+            raise ParameterRefusedError(f"unknown parameter {name}", DOES_NOT_EXIST)
+        if type_ != REAL32:
+            text = f"{name} is of the type REAL32, not {type_}"
+            raise ParameterRefusedError(text, OUT_OF_RANGE)
+        if not math.isfinite(value):
+            raise ParameterRefusedError(f"{name} must be a finite number", OUT_OF_RANGE)
+        if single(value) == single(present):
+            return None
+        if name == PERIOD:
+            return TelemetryFrequencyCommand.from_data({"frequency": value})
+        if name not in _GAINS:
+            raise ParameterRefusedError(f"{name} can only be read", READ_ONLY)
+        loop, axis, term = _GAINS[name]
+        pids = {
+            key: {each: dict(gains) for each, gains in axes.items()}
+            for key, axes in (self._gains or {}).items()
+        }
+        pids[loop][axis][term] = _decimal(value)
+        return PIDTuningsCommand.from_data({"pids": pids})
+
+
+def single(value: float) -> float:
+    """Return a number in the precision of the wire."""
+    unpacked: float = struct.unpack("<f", struct.pack("<f", value))[0]
+    return unpacked
+
+
+def _decimal(value: float) -> float:
+    """Return the shortest decimal number that is the same on the wire."""
+    for digits in range(6, 10):
+        shown = float(f"{value:.{digits}g}")
+        if single(shown) == single(value):
+            return shown
+    return value

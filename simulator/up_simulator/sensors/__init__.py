@@ -1,0 +1,1 @@
+"""Sensors and receivers aboard as twins, by their data sheets."""

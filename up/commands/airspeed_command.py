@@ -1,0 +1,19 @@
+"""The airspeed by a pitot tube."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class AirspeedCommand(BaseCommand):
+    """A true airspeed, and the differential pressure that it was computed from."""
+
+    NAME: ClassVar[str] = "up.airspeed.update"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    airspeed_m_s: float = value(key="airspeed", minimum=0, maximum=150, unit="m/s")
+    pressure_pa: float | None = value(None, key="pressure", unit="Pa")
