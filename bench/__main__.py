@@ -11,7 +11,7 @@ from bench.table import LeftOutError, Row, format_table
 SUBJECTS = {
     "attacks": "attacks of a hostile relay, with the rule that stops each and without it",
     "bus": "publishing to 1, 10 and 100 subscribers",
-    "codecs": "the serial line and orientation from bytes",
+    "codecs": "the serial line, orientation and CRSF from bytes",
     "envelope": "protected messages beside plain ones, and mutated ones",
     "cascade": "the control loop's arithmetic",
     "latency": "sensor to actuator through the running daemon",

@@ -11,8 +11,10 @@ import time
 from collections.abc import Callable, Iterable
 from importlib import import_module
 
-from bench.table import Row, compared
-from bench.timing import Limit
+from crsf_cog.frames import CHANNELS, CrsfDecoder, channels_us, frame
+
+from bench.table import Row, compared, figure
+from bench.timing import Limit, Spread
 from up.protocols.checked_framing import CheckedDecoder, CheckedEncoder
 from up.protocols.orientation_forward import OrientationDecoder
 
@@ -23,6 +25,7 @@ TCP_READ_SIZE = 65536
 TABLE_TARGET = 1.5
 PYMAVLINK_TARGET = 7.0
 ORIENTATION_TARGET, SINGLE_TARGET = 6.0, 1.0
+CRSF_TARGET = 4.0
 
 # The frames of an Arduino in each period: outputs, inputs, orientation.
 SIZES = {ord("r"): 8, ord("i"): 13, ord("O"): 26}
@@ -190,7 +193,46 @@ def orientation_rows(rounds: int) -> Iterable[Row]:
         yield compared(what, "us", ours, "the prototype's way", naive, limit)
 
 
+def crsf_work(pieces: list[bytes]) -> Work:
+    """Return our parsing of CRSF frames: address, length, CRC, the 16 channels."""
+
+    def work() -> int:
+        decoder = CrsfDecoder()
+        return sum(
+            len(channels_us(payload)) // 16
+            for piece in pieces
+            for _, payload in decoder.feed(piece)
+        )
+
+    return work
+
+
+def bare_crsf_work(pieces: list[bytes]) -> Work:
+    """Return the bare parsing: whole frames of the expected size, nothing checked."""
+    shifts = range(0, 176, 11)
+
+    def work() -> int:
+        count = 0
+        for piece in pieces:
+            bits = int.from_bytes(piece[3:25], "little")
+            count += len([bits >> shift & 0x7FF for shift in shifts]) // 16
+        return count
+
+    return work
+
+
+def crsf_rows(rounds: int) -> Iterable[Row]:
+    draws = random.Random(4)
+    pieces = [frame(CHANNELS, draws.randbytes(22)) for _ in range(FRAMES)]
+    ours, bare = cpu_us(crsf_work(pieces), bare_crsf_work(pieces), rounds=rounds)
+    what = "CRSF frame of 16 channels, parse"
+    yield compared(what, "us", ours, "bare parser, unchecked", bare, Limit(CRSF_TARGET))
+    per_percent = 1e4 / Spread.of(ours).median
+    yield Row("CRSF frames parsed for 1 % CPU", figure(per_percent, "1/s"))
+
+
 def rows(quick: bool = False) -> Iterable[Row]:
     rounds = QUICK_ROUNDS if quick else ROUNDS
     yield from serial_rows(rounds)
     yield from orientation_rows(rounds)
+    yield from crsf_rows(rounds)

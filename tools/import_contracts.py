@@ -36,6 +36,7 @@ PROXY_MAY_USE = {
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
 LAYERS = (
+    "telemetry_frame",
     "cli | (flight_log) | testing | public",
     "program",
     "registrar",

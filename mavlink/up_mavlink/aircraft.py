@@ -12,7 +12,7 @@ from up.mission.plan_transfer import PlanOutcome, PlanTransfer
 from up.mission.reliable_requests import Notify, ReliableRequests, Reply
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Clock
-from up_mavlink.frame import Frame
+from up.telemetry_frame import Frame
 from up_mavlink.parameters import Parameters
 from up_mavlink.personas import Persona
 from up_mavlink.plan_rows import Rows, write_rows
@@ -53,6 +53,11 @@ class Aircraft:
         self._transfers: dict[str, PlanTransfer] = {}
         self._rows: dict[str, tuple[Rows, float]] = {}
 
+    @property
+    def problem(self) -> str:
+        """Return why no Command can be sent now; empty if it can."""
+        return self._port.problem
+
     def on_frame(self, content: Mapping[str, Any], beacon: int | None) -> None:
         self.frame = Frame(content, beacon)
         self.received_s = self._clock.seconds()
@@ -76,7 +81,7 @@ class Aircraft:
         if not commands:
             notify(Reply())
             return
-        if problem := self._port.problem:
+        if problem := self.problem:
             notify(Reply(NO_CONTROL, problem))
             return
         first, *rest = commands
@@ -131,7 +136,7 @@ class Aircraft:
         if plan in self._transfers:
             on_end(PlanOutcome(BUSY.code, BUSY.reason))
             return
-        if items is not None and (problem := self._port.problem):
+        if items is not None and (problem := self.problem):
             on_end(PlanOutcome(NO_CONTROL, problem))
             return
 

@@ -14,7 +14,7 @@ from up.commands.mission_commands import MissionItemCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.refusal import Code
 from up.mission.reliable_requests import NO_ANSWER
-from up_mavlink.frame import Frame
+from up.telemetry_frame import Frame
 from up_mavlink.personas import Persona
 
 ACCEPTED, TEMPORARILY_REJECTED, DENIED, UNSUPPORTED, FAILED, IN_PROGRESS = range(6)

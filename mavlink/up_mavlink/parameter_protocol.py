@@ -22,6 +22,9 @@ from up_mavlink.status_texts import REFUSED
 
 LIST_S = 0.005
 """Between two values of a list: a slow radio must not get them all together."""
+CONTROL_S = 3.0
+"""A list waits this long for control: programs ask for it before the bridge has it."""
+RETRY_S = 0.2
 NO_INDEX = -1
 MAX_WAITING = 50
 
@@ -59,7 +62,7 @@ class ParameterProtocol:
 
     def _on_param_request_list(self, message: Any) -> None:
         cancel(self._timer)
-        self._with_gains(lambda: self._list(iter(self._values())), is_new=True)
+        self._list_with_gains(self._clock.seconds() + CONTROL_S)
 
     def _on_param_request_read(self, message: Any) -> None:
         self._with_gains(lambda: self._read(message))
@@ -76,6 +79,12 @@ class ParameterProtocol:
             then()
         else:
             self._aircraft.read_gains(then)
+
+    def _list_with_gains(self, end_s: float) -> None:
+        if self._aircraft.problem and self._clock.seconds() < end_s:
+            self._timer = self._clock.callLater(RETRY_S, self._list_with_gains, end_s)
+        else:
+            self._with_gains(lambda: self._list(iter(self._values())), is_new=True)
 
     def _values(self) -> dict[str, float]:
         return self._aircraft.parameters.values(self._aircraft.frame)

@@ -11,7 +11,7 @@ from up.commands.command import BaseCommand
 from up.commands.gains import AXES, gain_set_from_data
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
-from up_mavlink.frame import Frame
+from up.telemetry_frame import Frame
 
 REAL32 = 9
 """MAV_PARAM_TYPE_REAL32, the type of every parameter."""

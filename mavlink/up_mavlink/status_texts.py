@@ -9,7 +9,7 @@ from up.commands.event_rules import report_of, state_of
 from up.commands.schema_rows import Rule
 from up.commands.telemetry_schema import RULES
 from up.sanitize_text import sanitize_text
-from up_mavlink.frame import Frame
+from up.telemetry_frame import Frame
 
 SEVERITIES = {"alarm": 2, "warning": 4, "info": 6}
 REFUSED = 4

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import Any
 
 from up.commands.telemetry_schema import READINGS
+from up.telemetry_frame import Frame
 from up.version import VERSION
-from up_mavlink.frame import Frame
 from up_mavlink.personas import UNKNOWN_MODE, Persona
 
 FIXED_WING = 1

@@ -129,7 +129,7 @@ class Failsafes(BasePeriodicModule):
 
     def _conditions(self) -> dict[str, bool]:
         flight, situation = self.flight, self.flight.situation
-        is_linked = any(each.wants_telemetry for each in self._grounds)
+        is_linked = any(each.has_ground for each in self._grounds)
         # A restart in flight does not forget that there was a ground.
         self._was_linked = self._was_linked or is_linked or flight.is_resumed
         state = None if situation is None else situation.navigation

@@ -94,6 +94,36 @@ test("the horizon follows the sticks of a radio", async (t) => {
   }
 });
 
+test("the overlay shows the flight with nothing behind it", async () => {
+  const overlay = await GroundPage.open(browser, `${showcase.address}overlay`);
+  // A value that was painted before the newest frame came agrees with the next one.
+  await overlay.until(() => {
+    const frame = window.testMessages.findLast(({ message }) => message.type === "frame")?.message.data;
+    const at = (selector) => document.querySelector(selector);
+    if (!at('[data-freshness="live"] > #home-arrow') || !frame?.home?.bearing) {
+      return false;
+    }
+    const text = (key) => at(`[data-key="${key}"]`).textContent;
+    const turn_deg = Number(at("#home-arrow").getAttribute("transform").slice("rotate(".length, -1));
+    const off_deg = (turn_deg - frame.home.bearing + (frame.navigation.heading ?? frame.heading.actual)) % 360;
+    const isAtAuto = ["SETPOINT", "OUTPUT"].includes(frame.flight_mode);
+    return (
+      Math.abs(off_deg) < 0.1 &&
+      Math.abs(at("#horizon-ball").dataset.roll - frame.orientation.roll) < 0.1 &&
+      Math.abs(text("motion.ground_speed") - frame.navigation.speed) < 0.1 &&
+      text("arduino.flight_battery_v") === `${frame.arduino.flight_battery_v.toFixed(1)} V` &&
+      text("flight_mode") === (isAtAuto ? frame.flight_control.mode : frame.flight_mode) &&
+      text("link.state") === ""
+    );
+  }, "the newest frame on the overlay");
+  const grounds = await overlay.page.evaluate(() =>
+    ["html", "body", "#pfd"].map((each) => getComputedStyle(document.querySelector(each)).backgroundColor),
+  );
+  const sky = await overlay.page.evaluate(() => getComputedStyle(document.querySelector("#pfd .sky")).fill);
+  assert.deepEqual([...grounds, sky], Array(4).fill("rgba(0, 0, 0, 0)"));
+  overlay.assertClean();
+});
+
 test("the page has done nothing that it may not", () => ground.assertClean());
 
 /** Places of a map's record: latitude and longitude change together. */

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from android_cog.config import ANDROID
 from black_box_cog.config import BLACK_BOX
+from crsf_cog.config import CRSF
 from discovery_cog.config import DISCOVERY
 from gps_cog.config import GPS
 from mavlink_cog.config import MAVLINK
@@ -27,6 +28,7 @@ FILES = [
     ANDROID,
     ARDUINO,
     BLACK_BOX,
+    CRSF,
     DISCOVERY,
     GPS,
     MAVLINK,

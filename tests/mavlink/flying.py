@@ -5,6 +5,7 @@ import sys
 import threading
 from dataclasses import replace
 
+from tests.ground.aircraft import NAME
 from up_simulator.harness.child import Child
 from up_simulator.harness.ports import choose_ports
 from up_simulator.harness.programs import RealRaspilot
@@ -41,10 +42,11 @@ class Pilot:
 
 
 class Flying:
-    """``ports`` are those of the endpoints, in their order."""
+    """``ports`` are those of the endpoints, in their order; ``proxy`` relays to the ground."""
 
-    def __init__(self, folder, *endpoints, **files):
+    def __init__(self, folder, *endpoints, proxy=None, **files):
         ports = choose_ports(True)
+        uplink = {"url": "127.0.0.1", "port": proxy.airborne_port} if proxy else {}
         config = write_config(
             folder / "config",
             {
@@ -54,7 +56,13 @@ class Flying:
                     "orientation port": ports.orientation,
                 },
                 "discovery.yml": {"port": ports.discovery},
-                "mission_control.yml": {"listener": {"port": 0}, "tune_in_flight": True},
+                "mission_control.yml": {
+                    "listener": {"port": 0},
+                    "remote_server": uplink,
+                    "aircraft": NAME,
+                    "role": "pilot",
+                    "tune_in_flight": True,
+                },
                 "mavlink.yml": {"endpoints": list(endpoints)},
                 **files,
             },

@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import common as m
 
+from up.telemetry_frame import Frame
 from up_mavlink.codec import Codec
 from up_mavlink.command_table import of_long
-from up_mavlink.frame import Frame
 from up_mavlink.personas import BY_NAME, PERSONAS
 from up_mavlink.signing import Signing
 from up_mavlink.streams import DEFAULTS_S

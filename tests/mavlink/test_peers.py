@@ -1,5 +1,6 @@
 """MAVSDK and MAVProxy fly an aircraft: the firmware, the daemon, real sockets."""
 
+import contextlib
 import json
 import os
 import socket
@@ -11,8 +12,11 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from pymavlink import mavutil
 
+from tests.ground.aircraft import Ground
 from tests.mavlink.flying import Flying
+from tests.proxy.program import Program
 from tests.support.waiting import until
 
 HERE = Path(__file__).parent
@@ -26,7 +30,13 @@ PILOT = {
 
 
 @pytest.fixture(scope="module")
-def flying(tmp_path_factory):
+def proxy(tmp_path_factory):
+    with Program(tmp_path_factory.mktemp("proxy")) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def flying(proxy, tmp_path_factory):
     folder = tmp_path_factory.mktemp("peers")
     (folder / "config").mkdir()
     (folder / "config" / "key.txt").write_text("passphrase\n")
@@ -35,9 +45,19 @@ def flying(tmp_path_factory):
         folder,
         {"url": "udpin:127.0.0.1:0", "role": "pilot"},
         {"url": "tcpin:127.0.0.1:0", "role": "pilot", "signing": "require", "key_file": "key.txt"},
+        proxy=proxy,
+        **{"failsafe.yml": {"uplink_lost": {"delay_s": 2.0}}},
     )
     yield found
     found.stop()
+
+
+@contextlib.contextmanager
+def bridge(proxy, folder, kind):
+    """Run `up-ground mavlink`; the address of its endpoint."""
+    with Ground(folder, proxy.ground_port, "mavlink", f"{kind}:127.0.0.1:0") as running:
+        running.expect("mavlink_open")
+        yield f"127.0.0.1:{running.event('mavlink_open')['port']}"
 
 
 class Lossy:
@@ -76,10 +96,10 @@ class Lossy:
             each.close()
 
 
-def run_mavsdk(flying, port):
+def run_mavsdk(flying, url):
     """Return what the script reports, by the names of its steps."""
     reader, writer = os.pipe()
-    command = [sys.executable, HERE / "mavsdk_script.py", f"udpout://127.0.0.1:{port}", writer]
+    command = [sys.executable, HERE / "mavsdk_script.py", url, writer]
     told = {}
     with subprocess.Popen(
         list(map(str, command)), text=True, pass_fds=[writer], stdin=subprocess.PIPE,
@@ -104,8 +124,18 @@ def run_mavsdk(flying, port):
 
 def test_a_mavsdk_program_uses_all_of_the_aircraft_over_a_bad_link(flying):
     path = Lossy(flying.ports[0])
-    told = run_mavsdk(flying, path.port)
+    told = run_mavsdk(flying, f"udpout://127.0.0.1:{path.port}")
     path.close()
+    check_mavsdk(told)
+    assert path.lost > 5
+
+
+def test_a_mavsdk_program_uses_it_through_the_ground_bridge_by_tcp(proxy, flying, tmp_path):
+    with bridge(proxy, tmp_path, "tcpin") as address:
+        check_mavsdk(run_mavsdk(flying, f"tcpout://{address}"))
+
+
+def check_mavsdk(told):
     times_ms = {name: told.pop(name) for name in list(told) if name.endswith(" ms")}
     texts = told.pop("texts")
     assert told == {
@@ -128,8 +158,27 @@ def test_a_mavsdk_program_uses_all_of_the_aircraft_over_a_bad_link(flying):
         "pilot": "low", "arm refused": "COMMAND_DENIED", "kill": "COMMAND_DENIED",
         "not at AUTO": "COMMAND_DENIED", "by sticks": True,
     }, texts  # fmt: skip
-    assert path.lost > 5
     assert times_ms["connect ms"] < 5000
+
+
+RETURN, LOITER = 11, 12
+"""Numbers of ArduPlane's modes."""
+
+
+def test_the_aircraft_returns_after_the_last_heartbeat_of_its_only_ground(flying):
+    flying.pilot.move(**PILOT["auto"], throttle=1600)
+    link = mavutil.mavlink_connection(f"udpout:127.0.0.1:{flying.ports[0]}", source_system=255)
+
+    def mode(wanted, is_there):
+        if is_there:
+            link.mav.heartbeat_send(6, 8, 0, 0, 4)
+            link.mav.set_mode_send(1, 1, wanted)
+        beat = link.recv_match(type="HEARTBEAT", blocking=True, timeout=1.0)
+        return beat is not None and beat.custom_mode == wanted
+
+    until(lambda: mode(LOITER, True), "LOITER")
+    until(lambda: mode(RETURN, False), "RETURN")
+    link.close()
 
 
 class MAVProxy:
@@ -209,3 +258,22 @@ def test_mavproxy_uses_the_aircraft_by_tcp_with_signatures(flying, tmp_path):
         proxy.enter("wp clear", "TYPE_MISSION: ACCEPTED")
     finally:
         proxy.stop()
+
+
+def test_mavproxy_uses_the_aircraft_through_the_ground_bridge_by_udp(proxy, flying, tmp_path):
+    flying.pilot.move(throttle=1600)
+    (tmp_path / "field.txt").write_text(WAYPOINTS)
+    with bridge(proxy, tmp_path, "udpin") as address:
+        station = MAVProxy(f"udpout:{address}", tmp_path)
+        try:
+            station.enter("", "Detected vehicle 1:1")
+            station.enter("param fetch", "Received 20 parameters")
+            until(lambda: station.asks("mode LOITER", "DO_SET_MODE: ACCEPTED"), "control")
+            station.enter("", "LOITER>")
+            station.enter("wp load field.txt", "TYPE_MISSION: ACCEPTED")
+            station.enter("wp list", "p1=0.0 p2=0.0 p3=60.0")
+            station.enter("disarm", "ARM_DISARM: DENIED", "the throttle is not low")
+            station.enter("mode RTL", "DO_SET_MODE: ACCEPTED", "Mode RTL")
+            station.enter("wp clear", "TYPE_MISSION: ACCEPTED")
+        finally:
+            station.stop()

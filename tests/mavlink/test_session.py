@@ -282,6 +282,17 @@ def test_parameters_are_set_one_by_one_and_a_refused_one_keeps_its_value(rig):
     assert rig.up.telemetry_controller.wanted_period_ms == 200
 
 
+def test_a_list_of_parameters_waits_for_control(rig):
+    client, port = rig.client(), rig.endpoint.aircraft._port
+    port.problem = "control is not granted yet"
+    client.send("param_request_list", 1, 1)
+    rig.clock.pump([0.1] * 10)
+    assert not client.of("PARAM_VALUE")
+    del port.problem
+    rig.clock.pump([0.1] * 25)
+    assert len(client.of("PARAM_VALUE")) == client.of("PARAM_VALUE")[0].param_count == 20
+
+
 def test_a_message_interval_holds_for_one_client(rig):
     one, other = rig.client(), rig.client()
     assert one.command(511, 30, 5e4) == ACCEPTED
@@ -346,9 +357,9 @@ def test_a_ground_station_counts_while_its_heartbeats_arrive(tmp_path, role, kin
     client = rig.client()
     heartbeat(client, kind)
     control = rig.module.mission_control
-    assert control.wants_telemetry is counts
+    assert control.has_ground is counts
     rig.clock.advance(5.1)
-    assert control.wants_telemetry is False
+    assert control.has_ground is False
 
 
 def test_a_row_is_reached_when_the_next_one_is_flown(rig):

@@ -5,9 +5,13 @@ from __future__ import annotations
 import errno
 import fcntl
 import os
+import struct
 import termios
 
 _IFLAG, _OFLAG, _CFLAG, _LFLAG, _ISPEED, _OSPEED, _CC = range(7)
+_TERMIOS2 = struct.Struct("=4I20s2I")
+_TCGETS2, _TCSETS2, _BOTHER, _SPEED_BITS = 0x802C542A, 0x402C542B, 0o10000, 0o2003610017
+"""struct termios2 of Linux on x86 and ARM, its calls, and CBAUD with CIBAUD."""
 
 
 class SerialPortError(OSError):
@@ -24,18 +28,17 @@ def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
     With `clear_hupcl` closing the port leaves DTR unchanged, so that reopening it does not reset a
     board in flight. Input that arrived before is discarded.
     """
+    if not 0 < baud < 1 << 32:
+        raise SerialPortError(f"{path} cannot run at {baud} baud", code="speed_unsupported")
     speed = getattr(termios, f"B{baud}", None)
-    if speed is None:
-        raise SerialPortError(
-            f"{path} cannot run at {baud} baud, a speed this system has not",
-            code="speed_unsupported",
-        )
     try:
         descriptor = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK | os.O_CLOEXEC)
     except (OSError, ValueError) as error:
         raise _not_opened(path, error) from None
     try:
-        _set_up(descriptor, speed, clear_hupcl=clear_hupcl)
+        _set_up(descriptor, speed or termios.B38400, clear_hupcl=clear_hupcl)
+        if speed is None:
+            _set_unlisted_speed(descriptor, baud)
         _claim(descriptor, path)
         termios.tcflush(descriptor, termios.TCIFLUSH)
     except SerialPortError:
@@ -77,6 +80,13 @@ def _set_up(descriptor: int, speed: int, *, clear_hupcl: bool) -> None:
     attributes[_CC][termios.VMIN] = 1
     attributes[_CC][termios.VTIME] = 0
     termios.tcsetattr(descriptor, termios.TCSANOW, attributes)
+
+
+def _set_unlisted_speed(descriptor: int, baud: int) -> None:
+    """Set a speed that termios has no name for; the driver takes the nearest that it can."""
+    *flags, _, _ = _TERMIOS2.unpack(fcntl.ioctl(descriptor, _TCGETS2, bytes(_TERMIOS2.size)))
+    flags[_CFLAG] = flags[_CFLAG] & ~_SPEED_BITS | _BOTHER
+    fcntl.ioctl(descriptor, _TCSETS2, _TERMIOS2.pack(*flags, baud, baud))
 
 
 def _claim(descriptor: int, path: str) -> None:

@@ -30,6 +30,11 @@ class BaseMissionControlProvider(BaseStartedModule):
         """Return whether telemetry would reach a station."""
         return True
 
+    @property
+    def has_ground(self) -> bool:
+        """Return whether a ground station is connected: the failsafe ``uplink_lost`` asks."""
+        return self.wants_telemetry
+
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
         """Send a frame of telemetry; it replaces an unsent one."""
         self._transmit_newest(encode(command.NAME, command.content, None, command.beacon))

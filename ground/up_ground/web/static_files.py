@@ -10,6 +10,7 @@ from urllib.parse import unquote_to_bytes
 
 MAX_FILE_BYTES = 8_000_000
 _SEGMENT = re.compile(rb"[A-Za-z0-9_@-][A-Za-z0-9_.@-]{0,99}")
+_PAGES = {b"/": b"/index.html", b"/overlay": b"/overlay.html"}
 _TYPES = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -45,8 +46,7 @@ class StaticFiles:
 
     def get(self, path: bytes) -> StaticFile | None:
         """Return the file of a request's path, such as ``/js/main.js``; None if it is missing."""
-        if path == b"/":
-            path = b"/index.html"
+        path = _PAGES.get(path, path)
         segments = unquote_to_bytes(path).split(b"/")
         if segments[0] or len(segments) > 8:
             return None

@@ -43,8 +43,10 @@ def test_nobody_watches_then_full_rate_within_300_ms(net, tmp_path):
     assert ground.link.status.dropped == 0
     assert ground.telemetry.lost == 0
     assert ground.frames[-1][1].data["uplink"]["grounds"] == 1
+    assert aircraft.provider.has_ground
     ground.stop()
     net.run(11)
+    assert (aircraft.provider.connected, aircraft.provider.has_ground) == (True, False)
     before = aircraft.wire.bytes_out
     net.run(10)
     assert aircraft.wire.bytes_out - before < 250

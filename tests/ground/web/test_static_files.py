@@ -11,6 +11,7 @@ def folder(tmp_path):
     static = tmp_path / "static"
     (static / "js").mkdir(parents=True)
     (static / "index.html").write_text("<html>")
+    (static / "overlay.html").write_text("<html>")
     (static / "js" / "main.js").write_text("one")
     (static / ".hidden.js").write_text("hidden")
     (static / "program.py").write_text("no file of a page")
@@ -20,7 +21,7 @@ def folder(tmp_path):
     return static
 
 
-@pytest.mark.parametrize("path", [b"/", b"/index.html", b"/js/main.js", b"/inner.js"])
+@pytest.mark.parametrize("path", [b"/", b"/overlay", b"/index.html", b"/js/main.js", b"/inner.js"])
 def test_what_is_there(folder, path):
     assert StaticFiles(folder).get(path) is not None
 

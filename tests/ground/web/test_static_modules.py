@@ -67,12 +67,13 @@ def _named(module: Path) -> list[str]:
     return [*imports, *_PART.findall(text)]
 
 
-def _page() -> _Page:
-    return _Page((STATIC / "index.html").read_text(encoding="utf-8"))
+@pytest.fixture(params=["index.html", "overlay.html"])
+def page(request: pytest.FixtureRequest) -> _Page:
+    return _Page((STATIC / request.param).read_text(encoding="utf-8"))
 
 
-def test_the_page_has_no_inline_script_or_style() -> None:
-    assert _page().faults == []
+def test_the_page_has_no_inline_script_or_style(page: _Page) -> None:
+    assert page.faults == []
 
 
 def test_an_inline_script_and_an_inline_style_would_be_found() -> None:
@@ -80,14 +81,15 @@ def test_an_inline_script_and_an_inline_style_would_be_found() -> None:
     assert len(_Page(bad).faults) == 4
 
 
-def test_every_id_of_the_page_is_there_once_and_every_reference_leads_somewhere() -> None:
-    page = _page()
+def test_every_id_of_the_page_is_there_once_and_every_reference_leads_somewhere(
+    page: _Page,
+) -> None:
     assert len(set(page.ids)) == len(page.ids)
     assert set(page.places) <= set(page.ids)
 
 
-def test_the_files_that_the_page_names_lie_beside_it() -> None:
-    files = _page().files
+def test_the_files_that_the_page_names_lie_beside_it(page: _Page) -> None:
+    files = page.files
     assert files
     assert [name for name in files if not (STATIC / name).is_file()] == []
 
@@ -102,9 +104,9 @@ def test_every_import_of_a_module_resolves(module: Path) -> None:
             assert place.is_file(), f"{name} is not there"
 
 
-def test_every_module_is_reached_from_the_first_one() -> None:
+def test_every_module_is_reached_from_the_first_one_of_a_page() -> None:
     reached: set[Path] = set()
-    ahead = [STATIC / "js/main.js"]
+    ahead = [STATIC / "js/main.js", STATIC / "js/overlay.js"]
     while ahead:
         module = ahead.pop().resolve()
         if module not in reached and module.is_file():

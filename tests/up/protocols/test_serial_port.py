@@ -1,6 +1,8 @@
+import fcntl
 import os
 import pty
 import select
+import struct
 import termios
 
 import pytest
@@ -110,7 +112,18 @@ def test_what_is_no_port_is_refused(tmp_path):
 
 
 def test_a_speed_that_is_none_is_refused(port):
-    refused("speed_unsupported", port[1], 12345)
+    for baud in (0, -1, 1 << 32):
+        refused("speed_unsupported", port[1], baud)
+
+
+def test_a_speed_without_a_name_is_set(port):
+    descriptor = open_serial(port[1], 420000)
+    try:
+        found = fcntl.ioctl(descriptor, 0x802C542A, bytes(44))
+        assert struct.unpack("=2I", found[36:]) == (420000, 420000)
+        assert termios.tcgetattr(descriptor)[3] == 0, "it stays raw"
+    finally:
+        close_serial(descriptor)
 
 
 def test_a_port_without_permission_names_the_group(tmp_path):

@@ -125,7 +125,13 @@ class MissionControlProvider(BaseMissionControlProvider):
 
     @property
     def wants_telemetry(self) -> bool:
-        return self.connected or any(len(outlet) for outlet in self._outlets)
+        return self.connected or any(map(len, self._outlets))
+
+    @property
+    def has_ground(self) -> bool:
+        # A proxy that does not count its grounds may have one.
+        is_behind_proxy = self.connected and self._uplink is not None and self._uplink.grounds != 0
+        return is_behind_proxy or any(map(len, self._outlets))
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:

@@ -1,5 +1,5 @@
 import { mountHelp } from "./help.js";
-import { Connection } from "./link/connection.js";
+import { Connection, linkAddress } from "./link/connection.js";
 import { PartRegistry } from "./part_registry.js";
 import { mountShell, mountTheme, mountView } from "./shell.js";
 import { mountSound } from "./sound.js";
@@ -45,10 +45,7 @@ async function mountPart(registry, [id, path], store, connection) {
 }
 
 async function begin() {
-  const address = new URL("link", location.href);
-  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
-  address.hash = address.search = "";
-  const connection = new Connection(address.href);
+  const connection = new Connection(linkAddress());
   const store = new Store(connection);
   const registry = new PartRegistry(document.getElementById("missing"));
   mountTheme(document.getElementById("theme-button"));

@@ -13,6 +13,14 @@ const FULL_S = 5;
 const ANSWER_S = 15;
 const LOST = { code: "connection_lost", reason: "the connection to the ground server was lost" };
 
+/** The address of the WebSocket beside the page. */
+export function linkAddress() {
+  const address = new URL("link", location.href);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  address.hash = address.search = "";
+  return address.href;
+}
+
 /**
  * The page's connection to the ground server: opens, reconnects, sends requests and gets answers.
  *

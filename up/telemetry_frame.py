@@ -1,4 +1,4 @@
-"""The newest frame of telemetry, as the translation reads it."""
+"""The newest frame of telemetry, for adapters that send it on in another format."""
 
 from __future__ import annotations
 

@@ -1,0 +1,1 @@
+"""A CRSF receiver (ExpressLRS, Crossfire), for Up."""
