@@ -35,7 +35,10 @@ TELEMETRY_MS = 1000
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """The truth, the slow error of the GPS (north, east, up; m), the estimate and the demand."""
+    """The truth, the slow error of the GPS (north, east, up; m), the estimate and the demand.
+
+    ``home_error_m`` is home's altitude less the true one of the aircraft when home was set.
+    """
 
     time_s: float
     truth: FlightState
@@ -43,6 +46,7 @@ class Sample:
     mode: str | None
     state: NavigationState | None
     demand: Demand | None
+    home_error_m: float = math.inf
 
     @property
     def path(self) -> Any:
@@ -160,6 +164,10 @@ class _Probe:
         estimator = daemon.module("NavigationEstimator")
         assert isinstance(estimator, NavigationEstimator)
         self._estimator = estimator
+        manager = daemon.module("FlightModeManager")
+        assert isinstance(manager, FlightModeManager)
+        self._home = manager.home
+        self._home_error_m = math.inf
         self._newest: tuple[str, Demand] | None = None
         for mode in daemon.up.get_modules(FlightMode):
             self._watch(mode)
@@ -177,8 +185,12 @@ class _Probe:
     def sample(self) -> Sample:
         flight = self._flight
         name, demand = self._newest or (None, None)
-        state = self._estimator.state
-        return Sample(flight.time_s, flight.state, self._sensors.wander_m, name, state, demand)
+        state, truth, place = self._estimator.state, flight.state, self._home.place
+        if place is not None and math.isinf(self._home_error_m):
+            self._home_error_m = place.altitude_m - truth.altitude_m
+        return Sample(
+            flight.time_s, truth, self._sensors.wander_m, name, state, demand, self._home_error_m
+        )
 
 
 def rms(values: Iterable[float]) -> float:

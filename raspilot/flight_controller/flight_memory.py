@@ -29,16 +29,29 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
+class BarometerOffset:
+    """What home's altitude counts by: the barometer's altitude less that of the estimate."""
+
+    source: str = key("", "The barometer.", max_length=64)
+    offset_m: float = key(0.0, "Its offset.", unit="m", minimum=-30000, maximum=30000)
+
+
+@dataclass(frozen=True, slots=True)
 class MemoryConfig:
     """What the flight in progress needs after a restart of the program."""
 
     mode: str = key("", "The selected flight mode.", max_length=32)
     home: Place | None = section(Place, "Home.", optional=True)
+    barometer: BarometerOffset | None = section(
+        BarometerOffset, "Its offset when home was set.", optional=True
+    )
     target: Place | None = section(Place, "Where the mode flies to.", optional=True)
     mission: MissionProgress | None = section(MissionProgress, "MISSION.", optional=True)
 
 
 MEMORY = ConfigFile("flight_state.yml", MemoryConfig)
+MAX_OFFSET_CHANGE_M = 0.5
+"""A smaller one of the barometer's offset, by the weather, is not saved."""
 
 
 class FlightMemory:
@@ -56,7 +69,7 @@ class FlightMemory:
 
     def clear(self) -> None:
         """Forget an earlier flight; called when the program starts on the ground."""
-        self.update(mode="", home=None, target=None, mission=None)
+        self.update(mode="", home=None, barometer=None, target=None, mission=None)
 
     def update(self, **changes: Any) -> None:
         """Change values, and save them if they are others."""
@@ -64,6 +77,16 @@ class FlightMemory:
         if values != self.values:
             self.values = values
             self._disk.run(self._save).addErrback(self._log_unsaved)
+
+    def follow_barometer(self, source: str, offset_m: float) -> None:
+        """Save another offset, so that heights above home are the same after a restart."""
+        saved = self.values.barometer
+        if (
+            saved is None
+            or saved.source != source
+            or abs(offset_m - saved.offset_m) > MAX_OFFSET_CHANGE_M
+        ):
+            self.update(barometer=BarometerOffset(source, offset_m))
 
     def _save(self) -> None:
         self._file.save(self.values)

@@ -282,10 +282,19 @@ class FlightModeManager(BaseFlightController):
             self._is_asked = True
             if self._selector.selected != self._auto:
                 self._select(self._auto)
+        if command.is_in_flight:
+            self._save_barometer()
         if not command.is_auto or self.board.is_followed or self._auto is None:
             return
         if self._is_asked:
             self.board.request(command != previous)
+
+    def _save_barometer(self) -> None:
+        if self.estimator is None:
+            return
+        vertical = self.estimator.estimator.vertical
+        if vertical.source is not None and vertical.held_offset_m is not None:
+            self.home.memory.follow_barometer(vertical.source, vertical.held_offset_m)
 
     def _resume(self, state: FlightStateCommand) -> None:
         """Continue a flight after a restart of the program: home, target, mode."""
@@ -293,6 +302,9 @@ class FlightModeManager(BaseFlightController):
         self._resumed_at_s = self.context.reactor.seconds()
         self.is_resumed = True
         self.home.resume()
+        if memory.barometer is not None and self.estimator is not None:
+            vertical = self.estimator.estimator.vertical
+            vertical.resume(memory.barometer.source, memory.barometer.offset_m)
         name = memory.mode if state.is_auto and memory.mode in self._selector.modes else self._auto
         self._select(name)
         # Another restart may come before a position does.

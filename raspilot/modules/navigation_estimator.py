@@ -11,7 +11,7 @@ from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.airspeed_command import AirspeedCommand
 from up.commands.command import BaseCommand
-from up.commands.flight_state_command import FlightBatteryCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.servo_command import ServoCommand
@@ -75,6 +75,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         executor.register_command(AirspeedCommand, self._on_airspeed)
         executor.register_command(ServoCommand, self._on_servos)
         executor.register_command(AccelerationCommand, self._on_acceleration)
+        executor.register_command(FlightStateCommand, self._on_flight_state)
         executor.register_command(FlightBatteryCommand, self._on_flight_battery)
 
     @property
@@ -163,7 +164,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
 
     def _on_altitude(self, reading: Reading[float]) -> None:
         self._is_old = True
-        self.estimator.barometer(reading.time_s, reading.value)
+        self.estimator.barometer(reading.time_s, reading.value, reading.source)
 
     def _on_heading(self, reading: Reading[float]) -> None:
         self._is_old = True
@@ -178,6 +179,11 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _on_servos(self, command: ServoCommand) -> None:
         self._throttle = (command.throttle_us - LOWEST_US) / RANGE_US
         self.estimator.throttle(self._throttle * self._sag.share)
+
+    def _on_flight_state(self, command: FlightStateCommand) -> None:
+        """Hold the altitude from the arming on: home is set then."""
+        if command.is_in_flight is not None:
+            self.estimator.vertical.hold(command.is_in_flight)
 
     def _on_flight_battery(self, command: FlightBatteryCommand) -> None:
         if self.estimator.is_in_flight:

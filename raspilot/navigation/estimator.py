@@ -27,8 +27,8 @@ YAW_JUMP_DEG = 20.0
 """Change of the yaw between two frames that is another source or a restart, not a turn."""
 COMPASS_SD_DEG, COMPASS_INITIAL_SD_DEG = 60.0, 20.0
 """A compass counts little in each fix, because its error is the same in all of them."""
-RECEIVER_SD_M, RECEIVER_ALTITUDE_SD_M = 2.0, 3.0
-"""The slow wander of a receiver, which no filter sees; part of the standard deviations."""
+RECEIVER_SD_M, PRESSURE_SD_M = 2.0, 1.0
+"""The slow wander of a receiver, and the pressure's around an aircraft, which no filter sees."""
 MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
 GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
@@ -59,7 +59,7 @@ class Estimator:
         self._gate = FixGate(model.speeds.maximum_m_s)
         self._flight = FlightWatch()
         self.motor = MotorWatch()
-        self._vertical = VerticalFilter()
+        self.vertical = VerticalFilter()
         self._wind = WindMean()
         self._frame: LocalFrame | None = None
         self._horizontal: HorizontalFilter | None = None
@@ -76,8 +76,9 @@ class Estimator:
 
     @property
     def rejected(self) -> dict[str, int]:
-        """Return how many fixes were rejected, by reason."""
-        return dict(self._gate.rejected)
+        """Return how many fixes were rejected, by reason; ``barometer``: its jumps."""
+        jumps = self.vertical.jumps
+        return {**self._gate.rejected, **({"barometer": jumps} if jumps else {})}
 
     @property
     def is_in_flight(self) -> bool:
@@ -126,13 +127,13 @@ class Estimator:
         if abs(time_s - newest.time_s) <= MAX_GAP_S:
             self._compass_offset_rad = math.radians(heading_deg - newest.yaw_deg)
 
-    def barometer(self, time_s: float, altitude_m: float) -> None:
-        """Take an altitude whose changes are right; its offset is estimated."""
+    def barometer(self, time_s: float, altitude_m: float, source: str = "") -> None:
+        """Take an altitude whose changes are right; the offset of its source is estimated."""
         newest = self._path.newest
         if newest is None or not math.isfinite(altitude_m) or abs(altitude_m) > 30_000:
             return
         if abs(time_s - newest.time_s) <= MAX_GAP_S:
-            self._vertical.fuse_barometer(newest.time_s, newest.climb_m, altitude_m)
+            self.vertical.fuse_barometer(newest.time_s, newest.climb_m, altitude_m, source)
 
     def orientation(self, time_s: float, roll_deg: float, pitch_deg: float, yaw_deg: float) -> None:
         """Take an attitude and advance the air path to its time."""
@@ -208,7 +209,7 @@ class Estimator:
         else:
             self._correct(fix, point, at, velocity)
         if fix.altitude_m is not None:
-            self._vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
+            self.vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
         return True
 
     def state(self, now_s: float | None = None) -> NavigationState | None:
@@ -219,7 +220,7 @@ class Estimator:
             return None
         if now_s is not None and now_s > now.time_s:
             now = self._path.at(now_s) or now
-        vertical = self._vertical
+        vertical = self.vertical
         x = filter_.x
         along, across = filter_.variances()
         speed = self._model.airspeed_m_s * math.hypot(x[2], x[3])
@@ -251,7 +252,7 @@ class Estimator:
             roll_deg=self._roll_deg,
             pitch_deg=self._pitch_deg,
             position_sd_m=math.sqrt(position_variance + RECEIVER_SD_M**2),
-            altitude_sd_m=math.hypot(altitude_sd, RECEIVER_ALTITUDE_SD_M),
+            altitude_sd_m=math.hypot(altitude_sd, PRESSURE_SD_M),
             wind_sd_m_s=math.sqrt(max(0.0, filter_.p[4][4] + filter_.p[5][5]) + MIN_WIND_SD_M_S**2),
             airspeed_sd_m_s=airspeed_sd,
             heading_sd_deg=min(180.0, heading_sd),
@@ -312,7 +313,7 @@ class Estimator:
         self._horizontal = HorizontalFilter(0.0, 0.0)
         self._fixed = at
         if fix.altitude_m is not None:
-            self._vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
+            self.vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
 
     def _rest(self, point: Point, at: AirPoint, velocity: tuple[float, float] | None) -> None:
         """Take a fix on the ground, or the first one of the flight."""

@@ -1,74 +1,185 @@
-"""The Kalman filter of altitude, climb error and barometer offset."""
+"""The Kalman filter of altitude, climb error, and the offsets of barometer and receiver."""
 
 from __future__ import annotations
 
 import math
 
-FIX_R_M, WITH_BAROMETER_R_M, BAROMETER_R_M = 2.0, 15.0, 0.7
-"""Of a fix, without and with a barometer, and of the barometer. With one, the receiver's slow
-wander must not move the altitude: its fixes of one second count as white noise of 15 m.
-"""
+FIX_R_M, BAROMETER_R_M = 2.0, 0.7
+WITH_BAROMETER_R_M = 22.0
+"""Beside a barometer the fixes only show the mean: their wander counts as white noise."""
 BAROMETER_LOST_S = 5.0
-ALTITUDE_Q_M, CLIMB_Q_M_S, OFFSET_Q_M = 1.1, 0.3, 0.05
-"""Standard deviations after a second: how fast a receiver's altitude wanders, the climb error's,
-the barometer's offset's."""
+ALTITUDE_Q_M, CLIMB_Q_M_S = 1.1, 0.3
+"""Standard deviations after a second: how fast a receiver's altitude wanders, the climb error's."""
 WITH_BAROMETER_Q_M = 0.1
-ALTITUDE_SD_M, CLIMB_SD_M_S, OFFSET_SD_M = 1000.0, 1.0, 200.0
+MEAN_Q_M = 0.4
+"""Until the altitude is held it follows the mean of the last minutes' fixes."""
+WEATHER_Q_M = 0.03
+"""Of the barometer's offset: fixes move a held altitude slower than the weather does."""
+ALTITUDE_SD_M, CLIMB_SD_M_S, OFFSET_SD_M, RECEIVER_SD_M = 1000.0, 1.0, 200.0, 3.0
 CLIMB_TAU_S = 20.0
 """The climb error returns to zero with this time constant where nothing measures it."""
 LIMIT_SIGMA = 5.0
 MAX_VARIANCE = 1e6
+JUMP_M, JUMP_M_S = 5.0, 15.0
+"""A barometer that changes by more than this, and by this each second, has another offset."""
+OFF_M, OFF_TAU_S = 20.0, 10.0
+"""Fixes that differ by more for this long are believed instead of the barometer."""
+ALTITUDE, CLIMB, OFFSET, RECEIVER = range(4)
 
 
 class VerticalFilter:
-    """Altitude above sea level at the time of the newest measurement; the barometer's is relative.
+    """Altitude above sea level at the time of the newest measurement.
 
     ``climb_m`` is the running integral of the modelled climb (``AirPoint``): the state is the
-    altitude, the error of the modelled climb, and the barometer's offset.
+    altitude, the error of the modelled climb, the offset of the barometer and that of the receiver.
+
+    While it is held the barometer's offset is right by definition, whatever the receiver's error
+    was when it was found: altitudes have a constant error, heights above a home of this time have
+    none. Only the mean of many minutes of fixes moves it, as the weather does. An offset belongs to
+    the barometer named ``source``.
     """
 
     def __init__(self) -> None:
-        self.altitude_m = self.climb_error_m_s = self.offset_m = 0.0
+        self._x = [0.0, 0.0, 0.0, 0.0]
+        deviations = (ALTITUDE_SD_M, CLIMB_SD_M_S, OFFSET_SD_M, RECEIVER_SD_M)
+        self._p = [[0.0] * 4 for _ in deviations]
+        for index, sd in enumerate(deviations):
+            self._p[index][index] = sd * sd
         self._time_s: float | None = None
         self._climb_m = 0.0
-        self._p = [
-            [ALTITUDE_SD_M**2, 0.0, 0.0],
-            [0.0, CLIMB_SD_M_S**2, 0.0],
-            [0.0, 0.0, OFFSET_SD_M**2],
-        ]
         self._barometer_s = -math.inf
+        self._off_m, self._off_s = 0.0, -math.inf
+        self._is_known = self._is_pinned = self._is_held = False
+        self.source: str | None = None
+        self.jumps = 0
+
+    @property
+    def altitude_m(self) -> float:
+        return self._x[ALTITUDE]
+
+    @property
+    def climb_error_m_s(self) -> float:
+        return self._x[CLIMB]
+
+    @property
+    def held_offset_m(self) -> float | None:
+        """Return the barometer's altitude less this one, once that is held."""
+        return self._x[OFFSET] if self._is_pinned else None
+
+    @property
+    def climb_sd_m_s(self) -> float:
+        return math.sqrt(max(self._p[CLIMB][CLIMB], 0.0))
 
     def altitude_at(self, time_s: float, climb_m: float) -> float:
         passed_s = 0.0 if self._time_s is None else time_s - self._time_s
         return self.altitude_m + climb_m - self._climb_m + self.climb_error_m_s * passed_s
 
     def sd_at(self, time_s: float) -> float:
+        """Return that of the altitude; while it is held, without its constant error."""
         dt = 0.0 if self._time_s is None else max(0.0, time_s - self._time_s)
         p = self._p
         total = p[0][0] + 2.0 * dt * p[0][1] + dt * dt * p[1][1]
         total += ALTITUDE_Q_M**2 * dt + CLIMB_Q_M_S**2 * dt * dt * dt / 3.0
         return math.sqrt(min(max(total, 0.0), MAX_VARIANCE))
 
-    @property
-    def climb_sd_m_s(self) -> float:
-        return math.sqrt(max(self._p[1][1], 0.0))
+    def hold(self, is_held: bool) -> None:
+        """Hold the altitude from now on, or let it follow the mean of the fixes again."""
+        if self._is_pinned and not is_held:
+            self._is_pinned = False
+            self._x[RECEIVER] = 0.0
+            self._forget(RECEIVER, 0.0)
+            self._widen((1.0, 0.0, -1.0, -1.0), RECEIVER_SD_M**2)
+        self._is_held = is_held
+
+    def resume(self, source: str, offset_m: float) -> None:
+        """Continue with the offset that another run of the program has held."""
+        if self.source is not None:
+            self._shift(self._x[OFFSET] - offset_m)
+        self._x[OFFSET], self.source = offset_m, source
+        self._forget(OFFSET, 0.0)
+        self._is_held = self._is_pinned = True
 
     def fuse_fix(self, taken_s: float, climb_then_m: float, altitude_m: float) -> None:
         """Fuse a fix that was taken in the past: it is compared with the altitude at that time."""
         lag_s = 0.0 if self._time_s is None else max(0.0, self._time_s - taken_s)
         if lag_s == 0.0:
             self._advance(taken_s, climb_then_m)
-        elif self._p[0][0] >= ALTITUDE_SD_M**2:
-            lag_s = 0.0
-        error = altitude_m - self.altitude_at(taken_s, climb_then_m)
-        sd_m = WITH_BAROMETER_R_M if self._has_barometer(taken_s) else FIX_R_M
-        self._correct(1.0, -lag_s, 0.0, error, sd_m)
+        error = altitude_m - self.altitude_at(taken_s, climb_then_m) - self._x[RECEIVER]
+        sd_m = FIX_R_M
+        if not self._is_known:
+            self._is_known, lag_s = True, 0.0
+            self._x[ALTITUDE] += error
+            if not self._is_pinned:
+                self._x[OFFSET] -= error
+            error = 0.0
+        elif self._has_barometer(taken_s):
+            sd_m = WITH_BAROMETER_R_M
+            error = self._agreed(taken_s, error)
+        self._correct((1.0, -lag_s, 0.0, 1.0), error, sd_m)
 
-    def fuse_barometer(self, time_s: float, climb_m: float, altitude_m: float) -> None:
+    def fuse_barometer(
+        self, time_s: float, climb_m: float, altitude_m: float, source: str = ""
+    ) -> None:
+        passed_s = time_s - self._barometer_s
         self._barometer_s = time_s
         self._advance(time_s, climb_m)
-        error = altitude_m - self.altitude_m - self.offset_m
-        self._correct(1.0, 0.0, 1.0, error, BAROMETER_R_M)
+        error = altitude_m - self.altitude_m - self._x[OFFSET]
+        if source != self.source:
+            self.source, self._is_pinned = source, False
+            self._x[OFFSET] += error
+            self._forget(OFFSET, OFFSET_SD_M**2)
+            error = 0.0
+        elif self._is_known and abs(error) > JUMP_M + JUMP_M_S * passed_s:
+            self._x[OFFSET] += error
+            self.jumps += 1
+            error = 0.0
+        self._correct((1.0, 0.0, 1.0, 0.0), error, BAROMETER_R_M)
+        if self._is_pinned:
+            self._is_known = True
+        elif self._is_held and self._is_known:
+            self._pin()
+
+    def _pin(self) -> None:
+        """Make the offset right: its error becomes one of the altitude and of the receiver."""
+        rows = self._p
+        for k in range(4):
+            rows[ALTITUDE][k] += rows[OFFSET][k]
+            rows[RECEIVER][k] -= rows[OFFSET][k]
+        for row in rows:
+            row[ALTITUDE] += row[OFFSET]
+            row[RECEIVER] -= row[OFFSET]
+        self._forget(OFFSET, 0.0)
+        rows[RECEIVER][RECEIVER] += RECEIVER_SD_M**2
+        self._is_pinned = True
+
+    def _forget(self, index: int, variance: float) -> None:
+        for k in range(4):
+            self._p[index][k] = self._p[k][index] = 0.0
+        self._p[index][index] = variance
+
+    def _widen(self, direction: tuple[float, ...], variance: float) -> None:
+        for row, a in zip(self._p, direction, strict=True):
+            for k, b in enumerate(direction):
+                row[k] += a * b * variance
+
+    def _shift(self, up_m: float) -> None:
+        self._x[ALTITUDE] += up_m
+        self._x[OFFSET] -= up_m
+
+    def _agreed(self, time_s: float, error: float) -> float:
+        """Believe the fixes if the barometer has left them; return the error that remains."""
+        dt = max(0.0, time_s - self._off_s)
+        if dt > BAROMETER_LOST_S:
+            self._off_m = 0.0
+        self._off_s = time_s
+        self._off_m += (error - self._off_m) * min(1.0, dt / OFF_TAU_S)
+        if abs(self._off_m) <= OFF_M:
+            return error
+        self._shift(self._off_m)
+        error -= self._off_m
+        self._off_m = 0.0
+        self.jumps += 1
+        return error
 
     def _has_barometer(self, time_s: float) -> bool:
         return time_s - self._barometer_s < BAROMETER_LOST_S
@@ -80,31 +191,35 @@ class VerticalFilter:
         dt = time_s - self._time_s
         if dt <= 0.0:
             return
-        self.altitude_m = self.altitude_at(time_s, climb_m)
+        self._x[ALTITUDE] = self.altitude_at(time_s, climb_m)
         self._time_s, self._climb_m = time_s, climb_m
         keep = max(0.0, 1.0 - dt / CLIMB_TAU_S)
-        self.climb_error_m_s *= keep
-        p0, p1, p2 = self._p
-        noise = WITH_BAROMETER_Q_M if self._has_barometer(time_s) else ALTITUDE_Q_M
-        p0[0] += 2.0 * dt * p0[1] + dt * dt * p1[1] + noise**2 * dt + CLIMB_Q_M_S**2 * dt**3 / 3.0
-        p0[0] = min(p0[0], MAX_VARIANCE)
-        p0[1] = p1[0] = (p0[1] + dt * p1[1]) * keep
-        p0[2] = p2[0] = p0[2] + dt * p1[2]
-        p1[1] = p1[1] * keep * keep + CLIMB_Q_M_S**2 * dt
-        p1[2] = p2[1] = p1[2] * keep
-        p2[2] = min(p2[2] + OFFSET_Q_M**2 * dt, MAX_VARIANCE)
+        self._x[CLIMB] *= keep
+        p = self._p
+        for k in range(4):
+            p[0][k] += dt * p[1][k]
+        for row in p:
+            row[0] += dt * row[1]
+        for k in range(4):
+            p[1][k] *= keep
+        for row in p:
+            row[1] *= keep
+        noise = ALTITUDE_Q_M
+        if self._has_barometer(time_s):
+            noise = WITH_BAROMETER_Q_M
+            if not self._is_pinned:
+                self._widen((1.0, 0.0, -1.0, 0.0), MEAN_Q_M**2 * dt)
+        p[0][0] = min(p[0][0] + noise**2 * dt + CLIMB_Q_M_S**2 * dt**3 / 3.0, MAX_VARIANCE)
+        p[1][1] += CLIMB_Q_M_S**2 * dt
+        p[2][2] = min(p[2][2] + WEATHER_Q_M**2 * dt, MAX_VARIANCE)
 
-    def _correct(self, h0: float, h1: float, h2: float, innovation: float, sd: float) -> None:
-        column = [h0 * row[0] + h1 * row[1] + h2 * row[2] for row in self._p]
-        c0, c1, c2 = column
-        variance = h0 * c0 + h1 * c1 + h2 * c2 + sd * sd
+    def _correct(self, h: tuple[float, ...], innovation: float, sd: float) -> None:
+        column = [sum(a * b for a, b in zip(h, row, strict=True)) for row in self._p]
+        variance = sum(a * b for a, b in zip(h, column, strict=True)) + sd * sd
         limit = LIMIT_SIGMA * math.sqrt(variance)
         gain = max(-limit, min(limit, innovation)) / variance
-        self.altitude_m += c0 * gain
-        self.climb_error_m_s += c1 * gain
-        self.offset_m += c2 * gain
-        for row, each in zip(self._p, column, strict=True):
+        for index, (row, each) in enumerate(zip(self._p, column, strict=True)):
+            self._x[index] += each * gain
             part = each / variance
-            row[0] -= part * c0
-            row[1] -= part * c1
-            row[2] -= part * c2
+            for k in range(4):
+                row[k] -= part * column[k]

@@ -52,6 +52,7 @@ class PhoneSensors:
         horizontal_m = spread.uniform(*GPS_WANDER_M)
         self._wander_spread_m = (horizontal_m, horizontal_m, spread.uniform(*GPS_ALTITUDE_WANDER_M))
         self._wander_m = [self._noise.gauss(0.0, each) for each in self._wander_spread_m]
+        self._knows_altitude = False
         self._fix_s = self._fix_due_s = -math.inf
         self._newest_fix: dict[str, Any] = {}
         self._coming: deque[tuple[float, float, dict[str, Any]]] = deque()
@@ -71,6 +72,10 @@ class PhoneSensors:
         self.gps_delay_s = self._min_delay_s = delay_s
         self._wander_spread_m = (wander_m, wander_m, 2 * wander_m)
         self._wander_m = [0.0, 0.0, 0.0]
+
+    def know_altitude(self) -> None:
+        """Begin without an error of the altitude: home's is one of this receiver."""
+        self._knows_altitude = True
 
     @property
     def wander_m(self) -> tuple[float, float, float]:
@@ -122,6 +127,8 @@ class PhoneSensors:
             keep * wander + grow * self._noise.gauss(0.0, spread)
             for wander, spread in zip(self._wander_m, self._wander_spread_m, strict=True)
         ]
+        if self._knows_altitude and math.isinf(passed_s):
+            self._wander_m[2] = 0.0
         delay_s = self.gps_delay_s + self._noise.gauss(0.0, self._delay_jitter_s)
         fix = self._measure(state)
         if self.gps == "lost":

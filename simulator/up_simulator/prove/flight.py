@@ -118,6 +118,10 @@ def fly_case(case: Case, setup: Setup) -> Outcome:
 
 def _built(case: Case, setup: Setup) -> ScenarioFlight:
     try:
-        return build_flight(scenario_of(case, setup))
+        flight = build_flight(scenario_of(case, setup))
     except tuple(CAUSES) as error:
         raise CannotFlyError(error) from error
+    # The flight begins in the air; on the ground its estimate would have given home's altitude.
+    assert flight.participants.phone is not None
+    flight.participants.phone.sensors.know_altitude()
+    return flight

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from raspilot.navigation.airframe_model import STALL_MARGIN, AirframeModel
 from raspilot.navigation.path_controller import PathController
-from tests.raspilot.navigation.point_mass import CONFIG, FRAME, PointMass, distances, rms
+from tests.raspilot.navigation.point_mass import CONFIG, FRAME, STEP_S, PointMass, distances, rms
 from up.flight_modes.demand import Bank, Circle, Course, Line, PathDemand
 from up.flight_modes.navigation_state import NavigationState, Point
 
@@ -60,6 +60,20 @@ def test_an_error_of_airspeed_or_wind_causes_no_steady_error_of_the_track(
     for _ in range(50):
         attitude = controller.step(demand, estimate, 0.02)
     assert attitude.roll_deg == pytest.approx(0.0, abs=0.1)
+
+
+@pytest.mark.parametrize("error_m_s", [0.5, -0.5])
+def test_a_velocity_that_is_slightly_wrong_leaves_no_steady_distance_to_a_line(error_m_s):
+    demand = PathDemand(Line(Point(0.0, 0.0), 0.0), 300.0)
+    plane = PointMass(wind=(0.0, 6.0), heading=-33.0)
+
+    def step(state):
+        north_m_s, east_m_s = state.velocity_m_s
+        wrong = replace(state, velocity_m_s=Point(north_m_s, east_m_s + error_m_s))
+        return plane.controller.step(demand, wrong, STEP_S)
+
+    plane.fly(step, 40)
+    assert rms(each.position.east_m for each in plane.fly(step, 20)) < 0.25
 
 
 def test_the_bank_limit_of_a_demand_is_kept():

@@ -1,0 +1,124 @@
+"""The altitude with a barometer: whose error it has, and what moves it."""
+
+import pytest
+
+from raspilot.navigation.vertical_filter import OFF_M, VerticalFilter
+
+PRESSURE_M = 45.0
+"""The barometer's altitude less the true one."""
+WEATHER_M_S = 10.0 / 3600.0
+
+
+class Level:
+    """An aircraft at a constant altitude, with ten pressures and one fix each second.
+
+    ``fix_m`` and ``pressure_m`` are the errors of the receiver and of the barometer; None: silent.
+    """
+
+    def __init__(self, true_m=300.0, *, fix_m=6.0, is_held=True):
+        self.filter = VerticalFilter()
+        self.filter.hold(is_held)
+        self.true_m, self.time_s = true_m, 0.0
+        self.fly(1, fix_m)
+
+    def fly(self, duration_s, fix_m, pressure_m=PRESSURE_M, source="phone"):
+        for turn in range(1, round(10 * duration_s) + 1):
+            self.time_s = round(self.time_s + 0.1, 1)
+            if pressure_m is not None:
+                measured_m = self.true_m + pressure_m
+                self.filter.fuse_barometer(self.time_s, 0.0, measured_m, source)
+            if turn % 10 == 0 and fix_m is not None:
+                self.filter.fuse_fix(self.time_s - 0.5, 0.0, self.true_m + fix_m)
+        return self
+
+    @property
+    def error_m(self):
+        return self.filter.altitude_at(self.time_s, 0.0) - self.true_m
+
+
+def test_held_it_keeps_the_error_of_the_receiver_at_that_time():
+    level = Level(fix_m=6.0)
+    assert level.error_m == pytest.approx(6.0, abs=0.2)
+    for minutes in range(1, 31):
+        level.fly(60, 0.0)
+        assert abs(level.error_m - 6.0) < 60 * minutes * WEATHER_M_S + 0.2
+    assert level.filter.sd_at(level.time_s) < 2.0
+
+
+def test_not_held_it_follows_the_mean_of_the_fixes():
+    level = Level(fix_m=6.0, is_held=False).fly(180, 0.0)
+    assert abs(level.error_m) < 2.0
+    held = level.error_m
+    level.filter.hold(True)
+    assert level.fly(120, -5.0).error_m == pytest.approx(held, abs=0.5)
+    level.filter.hold(False)
+    assert level.fly(180, -5.0).error_m == pytest.approx(-5.0, abs=2.0)
+
+
+def test_held_it_follows_the_weather_in_an_hour():
+    level = Level(fix_m=0.0)
+    for minutes in range(1, 121):
+        level.fly(60, 0.0, PRESSURE_M + 60 * minutes * WEATHER_M_S)
+    assert 0.0 < level.error_m < 7.0
+
+
+@pytest.mark.parametrize("other_m", [-80.0, PRESSURE_M + 4.0])
+def test_an_offset_belongs_to_its_barometer(other_m):
+    level = Level(fix_m=6.0).fly(60, 0.0)
+    level.fly(10, 0.0, other_m, "sensor")
+    assert level.error_m == pytest.approx(6.0, abs=0.5)
+    assert level.filter.held_offset_m == pytest.approx(other_m - 6.0, abs=0.5)
+    assert level.fly(10, 0.0).error_m == pytest.approx(6.0, abs=0.7)
+
+
+@pytest.mark.parametrize("jump_m", [-40.0, 8.0, 300.0])
+def test_a_barometer_that_jumps_has_another_offset(jump_m):
+    level = Level(fix_m=6.0).fly(60, 0.0)
+    level.fly(0.2, None, PRESSURE_M + jump_m)
+    assert level.error_m == pytest.approx(6.0, abs=0.3)
+    level.fly(60, 0.0, PRESSURE_M + jump_m)
+    assert level.error_m == pytest.approx(6.0, abs=0.5)
+    assert level.filter.jumps == 1
+    assert level.fly(1, None).error_m == pytest.approx(6.0, abs=0.5), "and back"
+
+
+def test_a_climb_as_fast_as_an_aircraft_climbs_is_no_jump():
+    level = Level(fix_m=6.0).fly(60, 0.0)
+    for _ in range(100):
+        level.true_m += 1.0
+        level.fly(0.1, None)
+    assert level.filter.jumps == 0
+    assert level.fly(2, None).error_m == pytest.approx(6.0, abs=3.0)
+
+
+@pytest.mark.parametrize("lost_s", [3.0, 8.0, 90.0])
+def test_without_the_barometer_the_fixes_continue_with_the_same_error(lost_s):
+    level = Level(fix_m=6.0).fly(120, 0.0)
+    level.fly(lost_s, 0.0, None)
+    assert level.error_m == pytest.approx(6.0, abs=2.5)
+    assert level.fly(1, 0.0).error_m == pytest.approx(6.0, abs=0.7)
+
+
+def test_a_barometer_that_leaves_the_fixes_is_not_believed():
+    level = Level(fix_m=0.0).fly(60, 0.0)
+    for second in range(240):
+        level.fly(1, 0.0, PRESSURE_M + second)
+        assert abs(level.error_m) < 2.5 * OFF_M
+    assert level.filter.jumps > 3
+
+
+def test_high_up_the_first_fix_is_believed_although_the_barometer_was_there_before():
+    level = Level(3900.0, fix_m=None)
+    assert level.fly(1, 2.0).error_m == pytest.approx(2.0, abs=0.2)
+
+
+@pytest.mark.parametrize("before", ["nothing", "fix", "pressure", "both"])
+def test_another_run_of_the_program_continues_with_the_offset(before):
+    level = Level(fix_m=6.0).fly(60, 0.0)
+    offset_m = level.filter.held_offset_m
+    level.filter = VerticalFilter()
+    fix_m = -4.0 if before in ("fix", "both") else None
+    level.fly(1, fix_m, PRESSURE_M if before in ("pressure", "both") else None)
+    level.filter.resume("phone", offset_m)
+    assert level.fly(2, -4.0).error_m == pytest.approx(6.0, abs=0.5)
+    assert level.fly(120, -4.0).error_m == pytest.approx(6.0, abs=0.5)
