@@ -43,6 +43,11 @@ class MetricsPage(Resource):
         request.setHeader("Content-Type", CONTENT_TYPE)
         return self._page().encode("utf-8")
 
+    def render_HEAD(self, request: Request) -> bytes:  # noqa: N802 - Twisted's name
+        """Return no body, which Twisted would report for each request."""
+        self.render_GET(request)
+        return b""
+
 
 class OnlyRequest(SiteRequest):
     """A request that is the only one of its connection."""

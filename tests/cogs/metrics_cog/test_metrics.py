@@ -8,6 +8,7 @@ from metrics_cog import config
 from metrics_cog.config import METRICS
 from metrics_cog.modules.metrics import Metrics
 from twisted.internet.threads import deferToThread
+from twisted.logger import capturedLogs
 
 from tests.support.reactor import reactor, run_in_reactor
 from tests.support.scrape import scrape
@@ -32,6 +33,23 @@ def test_a_scrape_has_the_numbers_of_telemetry_and_only_on_loopback(tmp_path):
         await life.stop()
         with pytest.raises(ConnectionRefusedError):
             socket.create_connection(("127.0.0.1", up.ports["metrics"]))
+
+    run_in_reactor(fly)
+
+
+def test_a_port_in_use_does_not_forbid_to_fly(tmp_path):
+    async def fly():
+        with socket.socket() as other:
+            other.bind(("127.0.0.1", 0))
+            other.listen()
+            port = other.getsockname()[1]
+            up = build_up([Metrics], reactor, tmp_path, config={"metrics.yml": f"port: {port}\n"})
+            life = LifeCycle(up)
+            with capturedLogs() as events:
+                await life.start()
+            assert "port_unusable" in [each.get("code") for each in events]
+            assert up.vetoes.all == []
+            await life.stop()
 
     run_in_reactor(fly)
 

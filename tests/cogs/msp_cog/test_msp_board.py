@@ -3,6 +3,7 @@
 import pytest
 from msp_cog import messages
 from msp_cog.modules.msp_board import OVERRIDDEN_VALID
+from twisted.logger import capturedLogs
 
 from tests.cogs.msp_cog.recorded import ANGLE, ARMED, OVERRIDE, RECEIVER_FAILSAFE, status
 from tests.cogs.msp_cog.rig import Rig
@@ -211,6 +212,17 @@ def test_a_silent_board_is_unknown_until_it_answers_again(rig):
     rig.answers = answers
     rig.advance(1.0)
     assert rig.board.connected and rig.board.is_armed
+
+
+def test_a_port_where_nothing_answers_by_msp_is_reported_once(tmp_path):
+    rig = Rig(tmp_path)
+    rig.answers = {}
+    with capturedLogs() as events:
+        for _ in range(7):
+            rig.port.send(b"noise")
+            rig.advance(1.0)
+    assert [each["code"] for each in events if "code" in each].count("no_answer") == 1
+    rig.stop()
 
 
 def test_refused_messages_and_lost_answers_do_not_stop_the_others(rig):

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from twisted.internet.error import CannotListenError
 
 from metrics_cog.config import METRICS
-from up.base_started_module import BaseStartedModule, StartFailedError
+from up.base_started_module import BaseStartedModule
 from up.system.figures import Figure, numbers, text_of
 from up.system.metrics_page import serve_metrics
 
@@ -29,10 +29,14 @@ class Metrics(BaseStartedModule):
         try:
             self._port = serve_metrics(self.context.reactor, self.config.port, self._page)
         except CannotListenError as error:
-            reason = getattr(error.socketError, "strerror", None) or error.socketError
-            raise StartFailedError(
-                f"port {error.port} cannot be opened: {reason} (metrics.yml: port)"
-            ) from error
+            # An aircraft without this page may fly.
+            self.log.error(
+                "port {port} cannot be opened: {reason} (metrics.yml: port); no metrics",
+                port=error.port,
+                reason=getattr(error.socketError, "strerror", None) or error.socketError,
+                code="port_unusable",
+            )
+            return True
         self.up.advertise_port("metrics", self._port.getHost().port)
         return True
 

@@ -31,6 +31,7 @@ OVERRIDDEN_VALID = 0b110000
 """While set-points act the board reports them as the sticks: only the switches are the pilot's."""
 FOLLOWED_S = 0.3
 """The board drops a set-point after this time (``rx/msp.c``)."""
+ANSWER_S = 3.0
 LOST_S = 0.1
 """After this silence missing answers are lost."""
 SAME_FIX_S = 1.0
@@ -67,6 +68,7 @@ class MspBoard(BaseBoard):
         self._fix = b""
         self._fix_s = self._heard_s = self._sent_s = float("-inf")
         self._is_forbidden: bool | None = None
+        self._unanswered_s: float | None = None
         self._handlers = {
             messages.ATTITUDE: self._on_attitude,
             messages.RAW_IMU: self._on_rates,
@@ -141,7 +143,7 @@ class MspBoard(BaseBoard):
         self._poller.on_answers(counters.frames + counters.refused)
         if not replies:
             return
-        self._heard_s = self._seconds()
+        self._heard_s, self._unanswered_s = self._seconds(), None
         if not self._is_heard:
             self._is_heard = True
             self.report_heard()
@@ -163,12 +165,22 @@ class MspBoard(BaseBoard):
             self._on_silence()
         if silence_s > LOST_S:
             self._poller.forget()
+        if self._unanswered_s is not None and self._seconds() - self._unanswered_s > ANSWER_S:
+            self._unanswered_s = None
+            self.log.warn(
+                "{port} is open, and nothing there answers by MSP: is it the board's port, with MSP"
+                " switched on, at {baud} baud?",
+                port=self.config.port,
+                baud=self.config.baud_rate,
+                code="no_answer",
+            )
         requests = b"".join(encode(each) for each in self._poller.due())
         if requests:
             self._line.write(requests)
 
     def _on_opened(self) -> None:
         self.log.info("opened {port}", port=self.config.port, code="port_opened")
+        self._unanswered_s = self._seconds()
         self._decoder.reset()
         self._poller.reset()
 
