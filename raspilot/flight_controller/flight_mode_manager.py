@@ -27,8 +27,9 @@ from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
+from up.flight_controller.base_board import BaseBoard, ground_modes
 from up.flight_controller.base_flight_controller import BaseFlightController
-from up.flight_modes.declarations import auto_mode_problem, ground_modes
+from up.flight_modes.declarations import auto_mode_problem
 from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
@@ -89,14 +90,14 @@ class FlightModeManager(BaseFlightController):
 
     def on_init(self) -> None:
         super().on_init()
-        self._ground_modes = ground_modes(self.context.application.flight_controller)
+        self._ground_modes = ground_modes(self.up.get_modules(BaseBoard))
         self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
         for path, problem in self._selector.problems.items():
             self.log.error("{problem}", problem=problem, module=path, code="mode_invalid")
             self.up.vetoes.set(path, problem)
         modes, auto = self._selector.modes, self.config.auto_mode
         self._auto = auto if auto in modes else None
-        problem_of_auto = auto_mode_problem(auto, modes)
+        problem_of_auto = auto_mode_problem(auto, {*modes, *self._ground_modes})
         if problem_of_auto:
             self.up.vetoes.set("navigation.yml", problem_of_auto)
         self._selector.select(self._auto)

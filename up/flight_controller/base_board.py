@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar
 
 from up.base_started_module import BaseStartedModule
@@ -36,6 +36,8 @@ class BaseBoard(BaseStartedModule):
     """The name of the link: the source of readings, and the prefix of telemetry and vetoes."""
     TITLE: ClassVar[str] = ""
     """How sentences name the board."""
+    GROUND_MODES: ClassVar[tuple[str, ...]] = ("FBW",)
+    """The modes of its own that a ground may select, FBW among them."""
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
@@ -122,3 +124,9 @@ class BaseBoard(BaseStartedModule):
             },
             "source": {"servo": servo and self.LINK, "flight": self.LINK if is_known else None},
         }
+
+
+def ground_modes(modules: Iterable[object]) -> tuple[str, ...]:
+    """Return the modes of the board among the modules that a ground may select."""
+    boards = [each for each in modules if isinstance(each, BaseBoard)]
+    return boards[0].GROUND_MODES if boards else BaseBoard.GROUND_MODES

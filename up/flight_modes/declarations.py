@@ -13,13 +13,6 @@ _NAME = re.compile(rf"[A-Z][A-Z0-9_]{{1,{MAX_NAME - 1}}}")
 RESERVED = ("AUTO", "RATE")
 BOARD_MODES = ("FBW", "RATE", "ACRO")
 """A fallback to one of these, where the Raspberry Pi has none of that name, is the board's."""
-GROUND_MODES = ("FBW", "RATE")
-"""The board's modes that a ground may select."""
-
-
-def ground_modes(flight_controller: str) -> tuple[str, ...]:
-    """Return those of the configured board; of a Betaflight board the transmitter selects RATE."""
-    return GROUND_MODES[:1] if flight_controller == "msp" else GROUND_MODES
 
 
 def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str, str]]:
@@ -43,7 +36,7 @@ def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str
 
 
 def auto_mode_problem(name: str, modes: Container[str]) -> str | None:
-    """Return why ``navigation.yml: auto_mode`` cannot be this mode; None: it can."""
-    if name in modes or name in GROUND_MODES:
+    """Return why ``navigation.yml: auto_mode`` cannot be this mode; None: ``modes`` has it."""
+    if name in modes:
         return None
     return f"navigation.yml: auto_mode: no flight mode {name!r} is loaded"

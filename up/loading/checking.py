@@ -14,6 +14,7 @@ from up.config.application import APPLICATION, DISABLED_MODULES
 from up.context import Context
 from up.errors import Problem, UserError
 from up.fields import show
+from up.flight_controller.base_board import ground_modes
 from up.flight_modes.declarations import auto_mode_problem, usable
 from up.flight_modes.flight_mode import FlightMode
 from up.flight_modes.navigation_file import NAVIGATION
@@ -98,7 +99,7 @@ def _flight_mode_problems(context: Context, plan: Plan) -> Iterator[Problem]:
         yield UserError(text, "flight_mode_invalid", name=path, origin=plan.origins[path])
     if any(each.CONFIG is NAVIGATION for each in plan.modules):
         name = context.config(NAVIGATION).auto_mode
-        text = auto_mode_problem(name, modes) or ""
+        text = auto_mode_problem(name, {*modes, *ground_modes(plan.modules)}) or ""
         if text:
             file = context.config_folder / NAVIGATION.filename
             yield UserError(text, "flight_mode_unknown", file=file, key="auto_mode", value=name)

@@ -55,6 +55,7 @@ class ArduinoProvider(BaseBoard):
 
     LINK = LINK
     TITLE = "the Arduino"
+    GROUND_MODES = ("FBW", "RATE")
 
     serial = needs(SerialProvider)
 
