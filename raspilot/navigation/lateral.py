@@ -12,8 +12,9 @@ from up.flight_modes.navigation_state import NavigationState
 
 MIN_L1_M = 12.0
 MAX_L1_OF_RADIUS = 0.9
-LASTING_PERIODS, LASTING_OF_L1 = 0.6, 0.3
-"""Of the integral beside the path: its time over the period, its limit over the L1 distance."""
+INTEGRAL_PERIODS, INTEGRAL_OF_L1 = 0.6, 0.3
+"""Of the integral of the distance to a line: its time over the period, its limit over the L1
+distance."""
 MIN_RADIUS_M = 10.0
 TURN_MEMORY_DEG = 150.0
 MAX_FAR_M = 1e7
@@ -35,13 +36,13 @@ class LateralGuidance:
         omega = 2.0 * math.pi / config.period_s
         self._course_gain = 2.0 * config.damping * omega
         self._l1_s = 2.0 * config.damping / omega
-        self._lasting_s = LASTING_PERIODS * config.period_s
+        self._integral_s = INTEGRAL_PERIODS * config.period_s
         self.reset()
 
     def reset(self) -> None:
         self._last_turn = 0.0
-        self._path: Line | None = None
-        self._path_s = self._lasting_m = 0.0
+        self._line: Line | None = None
+        self._line_s = self._integral_m = 0.0
 
     def roll_deg(self, path: Line | Circle | Course | Bank, state: NavigationState) -> float:
         """Return the bank that the path requires, before the limits."""
@@ -94,7 +95,7 @@ class LateralGuidance:
             right_m = cosine * _far(east_m - path.point.east_m) - sine * _far(
                 north_m - path.point.north_m
             )
-            right_m += self._lasting(path, right_m, l1_m, state.time_s)
+            right_m += self._integral(path, right_m, l1_m, state.time_s)
             return tangent - math.asin(max(-1.0, min(1.0, right_m / l1_m))), 0.0
         radius_m = max(MIN_RADIUS_M, path.radius_m)
         out_north = _far(north_m - path.centre.north_m)
@@ -116,21 +117,21 @@ class LateralGuidance:
         share = math.cos(inward)
         return course, side * share * max(0.0, along_m_s) / max(radius_m, radius_m + outside_m)
 
-    def _lasting(self, path: Line, beside_m: float, l1_m: float, time_s: float) -> float:
+    def _integral(self, path: Line, beside_m: float, l1_m: float, time_s: float) -> float:
         """Return the integral of the distance beside the path, m.
 
         Without it a velocity that the estimate has slightly wrong, as in a wind that changes, is
         answered by a distance that stays.
         """
-        if path != self._path:
-            self._path, self._path_s, self._lasting_m = path, time_s, 0.0
-        passed_s = max(0.0, min(0.25, time_s - self._path_s))
-        self._path_s = time_s
-        limit_m = LASTING_OF_L1 * l1_m
+        if path != self._line:
+            self._line, self._line_s, self._integral_m = path, time_s, 0.0
+        passed_s = max(0.0, min(0.25, time_s - self._line_s))
+        self._line_s = time_s
+        limit_m = INTEGRAL_OF_L1 * l1_m
         if abs(beside_m) < limit_m:
-            grown_m = self._lasting_m + beside_m * passed_s / self._lasting_s
-            self._lasting_m = max(-limit_m, min(limit_m, grown_m))
-        return self._lasting_m
+            grown_m = self._integral_m + beside_m * passed_s / self._integral_s
+            self._integral_m = max(-limit_m, min(limit_m, grown_m))
+        return self._integral_m
 
 
 def _heading(
