@@ -66,10 +66,6 @@ class VerticalFilter:
         """Return the barometer's altitude less this one, once that is held."""
         return self._x[OFFSET] if self._is_pinned else None
 
-    @property
-    def climb_sd_m_s(self) -> float:
-        return math.sqrt(max(self._p[CLIMB][CLIMB], 0.0))
-
     def altitude_at(self, time_s: float, climb_m: float) -> float:
         passed_s = 0.0 if self._time_s is None else time_s - self._time_s
         return self.altitude_m + climb_m - self._climb_m + self.climb_error_m_s * passed_s

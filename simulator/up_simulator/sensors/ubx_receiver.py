@@ -12,7 +12,7 @@ from up_simulator.phone.sensors import GpsState, PhoneSensors
 
 SYNC = b"\xb5b"
 NAV_PVT, ACK, NAK = (0x01, 0x07), (0x05, 0x01), (0x05, 0x00)
-VALSET, RATE, MESSAGE, PORT, MOTION = (6, 0x8A), (6, 0x08), (6, 0x01), (6, 0x00), (6, 0x24)
+VALSET, RATE, MESSAGE, PORT = (6, 0x8A), (6, 0x08), (6, 0x01), (6, 0x00)
 RATE_KEY, SPEED_KEY, UART_PVT_KEY = 0x30210001, 0x40520001, 0x20910007
 _KEY_BYTES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 8}
 _PVT = struct.Struct("<IHBBBBBBIiBBBBiiiiIIiiiiiIIHH4xihH")
