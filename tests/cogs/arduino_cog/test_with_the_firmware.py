@@ -3,25 +3,20 @@
 import itertools
 import os
 import signal
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
-from tests.cogs.arduino_cog.bench_board import BenchBoard, ms
-from tests.cogs.arduino_cog.daemon import Daemon
-from tests.cogs.crsf_cog.rig import channels_frame, statistics_frame
-from tests.support.firmware import build_firmware
+from tests.cogs.arduino_cog.bench_board import ms
+from tests.cogs.arduino_cog.flying import await_profile, firmware, flying
 from up.commands.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, gain_set_of
 from up_rig import CYCLES_PER_US
 from up_rig.imu import motion_at
-from up_rig.pty_line import PtyLine
 
 AIRFRAME = "rudder: {trim_us: 40}\nfly_by_wire: {roll_deg: 33.333}\n"
 # Not the default of a board.
 GAINS = PIDS.template().replace("p: 2.0", "p: 2.25")
-CALM = "panic threshold: 100\n"
 PANIC = "panic threshold: 1\ncalm down threshold: 0\ninterval: 0.1\n"
 NO_GAINS = "\n".join(line.split(":")[0] + ": 0.0" if " p:" in line or " i:" in line
                      or " d:" in line else line for line in PIDS.template().splitlines()
@@ -32,40 +27,13 @@ SENT = ("gains_sent", "profile_sent")
 
 @pytest.fixture(scope="module")
 def elf():
-    """The firmware; RASPILOT_ELF names another one, such as one with a rule removed."""
-    return os.environ.get("RASPILOT_ELF") or build_firmware()
-
-
-def await_profile(board, ground):
-    """Wait until the board has the values of airframe.yml."""
-    board.wait(lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile")
-
-
-@contextmanager
-def flying(elf, folder, sticks=None, motion=None, **files):
-    """A board that flies and a daemon that speaks to it; the ground sees 20 frames a second."""
-    board = BenchBoard(elf, folder / "board", sticks)
-    board.motion = motion
-    daemon = Daemon(folder, board.link, **{"load_guard": CALM, **files})
-    try:
-        board.fly()
-        ground = daemon.start()
-        ground.ask("up.telemetry.frequency", frequency=50)
-        ground.sees("the link", arduino__connected=True, armed=False)
-        board.wait(
-            lambda: not any("airframe.yml" in veto for veto in ground.at("vetoes")), "profile"
-        )
-        yield board, daemon
-    finally:
-        daemon.end()
-        board.end()
+    return firmware()
 
 
 @pytest.fixture(scope="module")
 def flight(elf, tmp_path_factory):
     folder = tmp_path_factory.mktemp("firmware")
-    crsf = f"port: {folder / 'crsf'}\nmode_channel: 6\nmodes: [RATE, FBW]\n"
-    files = {"pids": GAINS, "airframe": AIRFRAME, "crsf": crsf}
+    files = {"pids": GAINS, "airframe": AIRFRAME}
     with flying(elf, folder, motion=motion_at(6.0, -4.0), **files) as both:
         yield both
 
@@ -168,33 +136,6 @@ def test_modes_are_taken_at_auto_only(flight):
     assert ground.ask("up.flight_mode.set", mode="RATE") == "not_at_auto"
     board.pass_us(300_000)
     assert ground.at("flight_mode") == "ACRO"
-
-
-def test_the_switch_decides_over_the_channel_of_a_crsf_receiver(flight):
-    board, daemon = flight
-    ground = daemon.ground
-    board.move(aux1=1000)
-    ground.sees("the switch", flight_mode="ACRO")
-    line = PtyLine(daemon.folder.parent / "crsf")
-
-    def swing(condition):
-        """Let the pilot move channel 6 to and fro; a busy machine only makes it take longer."""
-
-        def is_so():
-            is_low = (ground.at("system.clock_ms") or 0) // 600 % 2
-            line.write(statistics_frame(100) + channels_frame({6: 988 if is_low else 2012}))
-            return condition()
-
-        board.wait(is_so, "the effect of channel 6")
-
-    try:
-        swing(lambda: ground.at("counters.crsf.refused_not_at_auto"))
-        assert ground.at("flight_mode") == "ACRO" and not ground.at("counters.crsf.selected")
-        board.move(aux1=2000)
-        ground.sees("the switch", arduino__switch="high")
-        swing(lambda: ground.at("flight_mode") == "RATE")
-    finally:
-        line.close()
 
 
 def test_a_reset_in_flight_is_told_and_gets_nothing_but_start(flight):
