@@ -44,6 +44,8 @@ class CrsfConfig:
     def problems(self) -> Iterator[tuple[str, str]]:
         if self.mode_channel is not None and len(self.modes) < 2:
             yield "modes", "mode_channel needs at least two positions"
+        if self.mode_channel is None and self.modes:
+            yield "modes", "no mode_channel selects them"
 
 
 CRSF = ConfigFile("crsf.yml", CrsfConfig)

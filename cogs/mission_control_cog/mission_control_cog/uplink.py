@@ -189,7 +189,7 @@ class Uplink:
             return await connecting
         except (ConnectError, OSError, HostNotFoundError, TimeoutError) as error:
             self._failed(address)
-            reason = str(error).strip() or type(error).__name__
+            reason = str(error).strip().rstrip(".") or type(error).__name__
             self._report("no_connection", f"no connection: {reason}")
             raise
         except TLSError as fault:

@@ -63,7 +63,7 @@ class BetaflightBoard:
         found = shutil.which(program)
         if found is None:
             raise BoardUnavailableError(
-                f"there is no {program}: cogs/msp_cog/README.md says where it comes from"
+                f"there is no program {program}: cogs/msp_cog/README.md says where it comes from"
             )
         self._program = str(Path(found).resolve())
         self._flight = flight

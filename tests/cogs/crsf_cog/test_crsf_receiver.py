@@ -121,7 +121,12 @@ def test_without_a_port_the_module_is_not_loaded():
 
 @pytest.mark.parametrize(
     "text",
-    ["mode_channel: 6\n", "mode_channel: 4\nmodes: [AUTO, RETURN]\n", "sticks: AAAA\n"],
+    [
+        "mode_channel: 6\n",
+        "modes: [AUTO, RETURN]\n",
+        "mode_channel: 4\nmodes: [AUTO, RETURN]\n",
+        "sticks: AAAA\n",
+    ],
 )
 def test_what_cannot_be_meant_is_refused(text):
     with pytest.raises(ConfigErrors):

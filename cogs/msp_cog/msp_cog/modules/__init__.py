@@ -1,1 +1,1 @@
-"""The modules of the serial cog."""
+"""The modules of the MSP cog."""
