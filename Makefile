@@ -3,14 +3,16 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
-PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground flightlog/up_flightlog mavlink/up_mavlink \
+PACKAGES := up raspilot runner/up_runner proxy/up_proxy cluster/up_cluster ground/up_ground flightlog/up_flightlog mavlink/up_mavlink \
 	simulator/up_simulator arduino/bench/up_rig
 COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=
-MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . mavlink $(COGS)))
+MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . mavlink android/tools $(COGS)))
 SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml \
 	$(wildcard $(addsuffix /*/registered_modules.yml,$(COGS)))
+VERSION := $(shell sed -n 's/^VERSION = "\(.*\)"/\1/p' up/version.py)
+VERSIONED := flightlog/setup.py $(addsuffix /setup.py,$(COGS))
 TEST ?=
 # More than CI has cores: many tests wait for real time.
 WORKERS ?= 5
@@ -19,11 +21,13 @@ SCENARIO ?=
 CONTROLLER ?=
 RADIO ?=
 ARGS ?=
+ARCH ?=
+REVISION ?= 1
 # What the ground station's page has from npm. Without npm there is no stamp, and no harm.
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test test-browser compile-tests check check-python check-phone bench pictures format schema schemas clean
+.PHONY: help run scenarios test test-browser compile-tests check check-python check-phone bench pictures docs format schema schemas dist test-dist test-bundle deb test-deb lock version clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
@@ -34,9 +38,17 @@ help:
 	@echo 'make check    lint, types, import contracts, language; of the phone where a JDK and Debian'"'"'s tools are'
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
+	@echo 'make docs     the documentation as a site, into build/site; the ground station serves it, too'
 	@echo 'make format   put the code into the project'"'"'s form'
 	@echo 'make schema   the tables of status, telemetry, events and Commands, from schema/'
 	@echo 'make schemas  JSON Schema of every configuration file and Command, into build/schemas'
+	@echo 'make dist     sdist and wheel of every distribution, into dist/'
+	@echo 'make test-dist  installs these into a new environment outside the tree and tries the programs'
+	@echo 'make test-bundle  a USB stick of these: installed without a network, rolled back, removed'
+	@echo 'make deb      Debian packages of daemon, proxy, runner and ground station, into dist/ (ARCH="amd64 arm64", REVISION=2)'
+	@echo 'make test-deb  installs, kills, upgrades and removes these under systemd in a container; as root'
+	@echo 'make lock     constraints.txt: exact versions and hashes for servers'
+	@echo 'make version  give every distribution the version of up/version.py'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
 	@echo 'make -C android help  the phone: the app, the Up Library, its tests'
 	@echo 'make clean    remove what the others made'
@@ -77,8 +89,9 @@ test-browser: $(VENV)/.dev-ready $(WEB)
 
 check: check-python check-phone
 
-# Else each worker of the tests would compile them; "make test" reports what cannot be collected.
-compile-tests: $(VENV)/.dev-ready
+# Else each worker of the tests would compile them; "make test" reports what cannot be collected. The
+# page's files come beside the installation, not after it.
+compile-tests: $(VENV)/.dev-ready $(WEB)
 	-@$(PY) -m pytest --collect-only -q >/dev/null
 
 check-phone:
@@ -87,16 +100,14 @@ check-phone:
 check-python: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy main.py tools/import_contracts.py tools/command_tables.py \
-		tools/plain_english.py tools/schema.py tools/schema_definition.py tools/schema_languages.py \
-		tools/sentence_assertions.py tools/tuning $(PACKAGES)
-	@for cog in $(COGS); do echo "mypy $$cog"; \
-		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
-	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py
+	MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy main.py $(wildcard tools/*.py) tools/tuning android/tools/*.py \
+		$(PACKAGES) $(foreach cog,$(COGS),$(cog)/$(notdir $(cog)))
 	$(PY) tools/import_contracts.py
 	$(PY) tools/plain_english.py --max 1
 	$(PY) tools/sentence_assertions.py --max 40
 	$(PY) tools/schema.py --check
+	@test -z "$$(grep -L 'version="$(VERSION)"' $(VERSIONED))" || \
+		{ echo 'A setup.py has another version than up/version.py: make version' >&2; exit 1; }
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
 $(VENV)/.bench-ready: $(SETUPS) | $(PY)
@@ -109,6 +120,13 @@ bench: $(VENV)/.bench-ready $(WEB)
 pictures: $(VENV)/.run-ready $(WEB)
 	@tools/pictures $(PY)
 
+$(VENV)/.docs-ready: $(SETUPS) | $(VENV)/.run-ready
+	@tools/install $(PY) docs
+	@touch $@
+
+docs: $(VENV)/.docs-ready
+	@$(PY) tools/docs_site.py
+
 format: $(VENV)/.dev-ready
 	$(BIN)/ruff check --fix . ; $(BIN)/ruff format .
 
@@ -120,6 +138,36 @@ schemas: $(VENV)/.run-ready
 	$(BIN)/up schemas build/schemas
 	$(PY) tools/schema.py --json build/schemas/commands
 
+# Needs npm and the AVR compiler: a release without the page's libraries or the firmware is refused.
+dist: docs $(WEB)
+	@$(MAKE) -s -C arduino release
+	$(PY) tools/dist.py
+
+test-dist: $(VENV)/.dev-ready dist
+	$(PY) -m pytest tests/dist/trial.py
+
+# Builds a second version of it; needs root, for a namespace without a network.
+test-bundle: $(VENV)/.dev-ready dist
+	$(PY) -m pytest tests/dist/bundle_trial.py
+
+deb: $(VENV)/.dev-ready dist
+	$(PY) -m tools.deb --revision $(REVISION) $(if $(ARCH),--arch $(ARCH))
+
+test-deb: deb
+	UP_REQUIRE_TOOLS=1 $(PY) -m pytest -s tests/dist/deb_trial.py
+
+# constraints.txt: exact versions and hashes for servers and images.
+lock: dist
+	@tools/lock
+
+# A cog's setup.py has it as a literal: an sdist of the cog has no up/ beside it.
+version:
+	@sed -i -E 's/^(    version=)".*"/\1"$(VERSION)"/' $(VERSIONED)
+	@code=$$($(PYTHON) android/tools/verify.py code $(VERSION)) && sed -i -E \
+		-e 's/^( *- versionName|CurrentVersion): .*/\1: $(VERSION)/' -e 's/^( *commit): .*/\1: v$(VERSION)/' \
+		-e "s/^( *versionCode|CurrentVersionCode): .*/\1: $$code/" android/fdroid/org.raspilot.yml
+
 clean:
 	rm -rf build dist run arduino/build* android/build $(VENV) .pytest_cache .mypy_cache \
-		.ruff_cache .hypothesis *.egg-info ground/node_modules $(VENDOR) $(VENDOR).new.*
+		.ruff_cache .hypothesis *.egg-info ground/node_modules $(VENDOR) $(VENDOR).new.* \
+		ground/up_ground/web/static/docs

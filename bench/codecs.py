@@ -145,7 +145,11 @@ def orientation_work(pieces: list[bytes]) -> Work:
 
     def work() -> int:
         decoder = OrientationDecoder()
-        return sum(len(decoder.feed(piece)) for piece in pieces)
+        count = 0
+        # A loop like the prototype's: a generator costs a tenth of a frame.
+        for piece in pieces:
+            count += len(decoder.feed(piece))
+        return count
 
     return work
 

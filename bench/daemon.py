@@ -34,6 +34,7 @@ def write_config(
     proxy_port: int = 0,
     priority: int = 0,
     is_recorded: bool = True,
+    has_metrics: bool = False,
 ) -> None:
     """Write a configuration: the Raspberry Pi flies, everything else as shipped."""
     recorder = {"enabled": is_recorded, "folder": str(folder / FLIGHTS)}
@@ -46,6 +47,8 @@ def write_config(
         # Other programs' load must not turn this into a measurement of Panic Mode.
         "load_guard.yml": "panic threshold: 100.0\ncalm down threshold: 99.0\n",
     }
+    if has_metrics:
+        files["metrics.yml"] = f"port: {ports.metrics}\n"
     if proxy_port:
         files["mission_control.yml"] = f"remote_server:\n  url: 127.0.0.1\n  port: {proxy_port}\n"
     for name, text in files.items():
@@ -60,12 +63,13 @@ def daemon(
     priority: int = 0,
     program: Path = MAIN,
     is_recorded: bool = True,
+    has_metrics: bool = False,
 ) -> Iterator[Daemon]:
     """Run the daemon on a serial port until the block ends."""
     ports = choose_ports(any_ports=True)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        write_config(folder, ports, serial, proxy_port, priority, is_recorded)
+        write_config(folder, ports, serial, proxy_port, priority, is_recorded, has_metrics)
         log = folder / "log"
         with (
             log.open("w") as stream,

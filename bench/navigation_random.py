@@ -18,7 +18,8 @@ MODES = ("CRUISE", "LOITER", "GUIDED", "RETURN", "CIRCLE")
 FAULTS = ("jumped", "frozen", "lost")
 TURBULENCE = ("none", "light", "moderate")
 MAX_WIND_M_S = 8.0
-FIRST_S, SECOND_S, RETURN_S, END_S = 4.0, 30.0, 55.0, 95.0
+FIRST_S, SECOND_S, RETURN_S, AGAIN_S, END_S = 4.0, 30.0, 55.0, 88.0, 130.0
+"""Without a fix RETURN is refused, and a jump ends it for a time: it is selected again later."""
 FAULT_S, FAULT_FOR_S = (8.0, 65.0), (2.0, 20.0)
 NEAR_M = 150.0
 STALL, MIN_PROGRESS_M = 1.0, 20.0
@@ -56,6 +57,7 @@ def fly_at_random(seed: int) -> Outcome:
         Event(fault_s, gps=fault),  # type: ignore[arg-type]
         Event(fault_s + for_s, gps="back"),
         mode_at(RETURN_S, "RETURN"),
+        mode_at(AGAIN_S, "RETURN"),
     )
     flown = fly(scenario_of(seed, controller, weather, END_S, *events))
     about = (
@@ -82,11 +84,11 @@ def _beside(draw: random.Random) -> dict[str, float]:
 
 
 def _is_gone(flown: Flown) -> bool:
-    """Return whether RETURN neither arrived nor came nearer."""
+    """Return whether the last RETURN neither arrived nor came nearer."""
     way_m = [
         math.hypot(each.truth.north_m, each.truth.east_m)
         for each in flown.samples
-        if each.time_s >= RETURN_S
+        if each.time_s >= AGAIN_S
     ]
     return not way_m or (way_m[-1] > NEAR_M and way_m[-1] > way_m[0] - MIN_PROGRESS_M)
 

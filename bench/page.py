@@ -24,7 +24,7 @@ from up_flightlog.read.flight_log import FlightLog
 
 ROOT = Path(__file__).parents[1]
 TESTS = ROOT / "tests" / "browser"
-NEEDED = {"node": "nodejs", "npm": "npm", "chromium": "chromium"}
+NEEDED = {"node": "nodejs", "npm": "npm", "chromium-headless-shell": "chromium-headless-shell"}
 SECONDS, QUICK_SECONDS = 20.0, 4.0
 PERIOD_MS = 50
 LIMIT_S = 300.0

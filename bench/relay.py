@@ -116,10 +116,10 @@ def wait_for_port(port: int) -> None:
 class Load:
     """The load generator's process."""
 
-    def __init__(self, mode: str, seconds: float, tls: Path | None = None, **ports: int) -> None:
+    def __init__(self, mode: str, seconds: float, tls: Path | None = None, **more: object) -> None:
         job = {"mode": mode, "pairs": PAIRS, "tls": str(tls or ""),
                "rate_hz": RATE_HZ, "seconds": seconds,
-               "size": SIZE, "cpu": cores()[1], "echo": 0, **ports}  # fmt: skip
+               "size": SIZE, "cpu": cores()[1], "echo": 0, **more}  # fmt: skip
         self._process = subprocess.Popen(
             [sys.executable, str(LOAD)], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )

@@ -56,13 +56,14 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
             job["send"] = json.loads(sys.stdin.readline())["send"]
         else:
             job["send"] = listener.getsockname()[1]
+    prefix = job.get("prefix", "bench")
     for number in range(job["pairs"]):
         if listener is None:
-            own = client
+            own, name = client, f"{prefix}-{number}"
             if folder is not None:
-                own = TLSFiles(folder / f"bench-{number}").client()
-            echo = dial(job["echo"], f"UP1 aircraft=bench-{number}\n", own)
-            send = dial(job["send"], f"UP1 aircraft=bench-{number} seat=command\n", client)
+                own = TLSFiles(folder / name).client()
+            echo = dial(job["echo"], f"UP1 aircraft={name}\n", own)
+            send = dial(job["send"], f"UP1 aircraft={name} seat=command\n", client)
         else:
             send = dial(job["send"], tls=client)
             echo, _ = listener.accept()

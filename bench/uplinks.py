@@ -4,8 +4,6 @@ A real proxy with TLS, an aircraft with two interfaces, a ground with a key; no 
 on a real path each failover takes three round trips more.
 """
 
-import os
-import shutil
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
@@ -14,18 +12,19 @@ from typing import Any
 from bench.table import LeftOutError, Row
 from tests.cogs.mission_control_cog.hostile_relay import Ground, pair
 from tests.cogs.mission_control_cog.system import Aircraft
-from tests.cogs.mission_control_cog.two_paths import (
+from tests.cogs.mission_control_cog.two_paths import two_paths
+from tests.proxy.program import Program
+from tests.support.certificates import Certificates
+from tests.support.reactor import reactor, run_in_reactor, until
+from up_simulator.harness.two_paths import (
     BEST,
     PROXY,
     PROXY_FOR_GROUND,
     SPARE,
-    swallow,
-    two_paths,
+    PathsUnavailableError,
+    TwoPaths,
+    check_paths,
 )
-from tests.proxy.namespace import light
-from tests.proxy.program import Program
-from tests.support.certificates import Certificates
-from tests.support.reactor import reactor, run_in_reactor, until
 
 TARGET_S = 1.5
 AWAIT_S = 30
@@ -41,7 +40,7 @@ def failovers(folder: Path, rounds: int) -> tuple[list[float], int]:
         f" interfaces: [{BEST}, {SPARE}], return_after_s: 5}}\naircraft: glider-1\n"
     )
 
-    async def fly(inside: tuple[str, ...], proxy: Any) -> int:
+    async def fly(paths: TwoPaths, proxy: Any) -> int:
         async with Aircraft(folder / "a", None, text % proxy.airborne_port) as aircraft:
             ground = Ground(
                 folder, proxy.ground_port, pairing, "glider-1", tablet, PROXY_FOR_GROUND
@@ -49,25 +48,27 @@ def failovers(folder: Path, rounds: int) -> tuple[list[float], int]:
             uplink = aircraft.provider._uplink
             await ground.ready()
             await until(lambda: uplink._paths._selector.has_other(0, reactor.seconds()), AWAIT_S)
-            swallow(inside, BEST)
+            paths.cut()
             cut_s = reactor.seconds()
             await until(lambda: uplink.path == SPARE, AWAIT_S)
             newest = aircraft.up.beacons._next
             await until(lambda: ground.telemetry.beacon > newest, AWAIT_S)
             gaps_s.append(reactor.seconds() - cut_s)
-            light(inside)
+            paths.restore()
             await ground.link.stop()
             return len(aircraft.provider.protection.sessions)
 
     tls = f"tls: {{folder: {relay}, airborne port: 0, ground port: 0}}\n"
-    with two_paths() as inside, Program(folder / "p", tls, prefix=inside) as proxy:
-        sessions = [run_in_reactor(lambda: fly(inside, proxy)) for _ in range(rounds)]
+    with two_paths() as paths, Program(folder / "p", tls, prefix=paths.inside) as proxy:
+        sessions = [run_in_reactor(lambda: fly(paths, proxy)) for _ in range(rounds)]
     return gaps_s, max(sessions)
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    if os.geteuid() or not all(map(shutil.which, ("ip", "nft"))):
-        raise LeftOutError("two paths need root, iproute2 and nftables")
+    try:
+        check_paths()
+    except PathsUnavailableError as error:
+        raise LeftOutError(str(error)) from error
     rounds = 1 if quick else 5
     with tempfile.TemporaryDirectory() as folder:
         gaps_s, sessions = failovers(Path(folder), rounds)

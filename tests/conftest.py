@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from xdist.scheduler import LoadFileScheduling
 
 from tests.support.showcase import Showcase
 
@@ -18,8 +19,12 @@ settings.register_profile("tests", deadline=None, suppress_health_check=[HealthC
 settings.register_profile("ci", settings.get_profile("tests"), derandomize=True, max_examples=50)
 settings.load_profile("ci" if os.environ.get("UP_REQUIRE_TOOLS") == "1" else "tests")
 
-# A worker takes a whole file. Those that take minutes come first: none is left for the end.
-LONG_FILES = ("test_browser.py", "test_shipped_real.py", "test_ending.py", "test_shipped.py")
+# A worker takes a whole file, and one takes all that have a browser. What runs in real time comes
+# first and is not nice; then those that take minutes: none is left for the end.
+BROWSER_FILES = ("test_browser.py", "test_guide.py")
+REAL_TIME_FILES = (*BROWSER_FILES, "test_shipped_real.py")
+LONG_FILES = (*REAL_TIME_FILES, "test_ending.py", "test_shipped.py")
+NICE = 5
 
 # A shell starts a background program with Ctrl-C ignored, and its children inherit that: then
 # Ctrl-C would end none of the tests' own programs.
@@ -27,8 +32,28 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+class BrowsersTogether(LoadFileScheduling):
+    """Gives each file to one worker, and all `BROWSER_FILES` to the same one."""
+
+    def _split_scope(self, nodeid):
+        file = super()._split_scope(nodeid)
+        return "browser" if file.endswith(BROWSER_FILES) else file
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    return BrowsersTogether(config, log) if config.getoption("dist") == "loadfile" else None
+
+
 def pytest_collection_modifyitems(items):
-    items.sort(key=lambda item: item.path.name not in LONG_FILES)
+    order = [REAL_TIME_FILES, LONG_FILES]
+    items.sort(key=lambda item: [item.path.name not in files for files in order])
+
+
+def pytest_runtest_setup(item):
+    # Not the other way round: Chromium sets the priority of its pages to 0.
+    if item.path.name not in REAL_TIME_FILES:
+        os.setpriority(os.PRIO_PROCESS, 0, max(NICE, os.getpriority(os.PRIO_PROCESS, 0)))
 
 
 @pytest.fixture(scope="session", autouse=True)

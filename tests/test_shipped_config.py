@@ -9,6 +9,7 @@ from load_guard_cog.config import LOAD_GUARD
 from mission_control_cog.config import MISSION_CONTROL
 
 from up.config.application import APPLICATION, DISABLED_MODULES, PROVIDERS, ApplicationConfig
+from up_cluster.config import FLEET
 from up_proxy.config import PROXY
 
 CONFIG = Path(__file__).parents[1] / "config"
@@ -16,7 +17,9 @@ BLACK_BOX = CONFIG / "blackbox"
 
 
 @pytest.mark.parametrize(
-    "file", [APPLICATION, DISABLED_MODULES, PROVIDERS, PROXY, LOAD_GUARD], ids=lambda f: f.filename
+    "file",
+    [APPLICATION, DISABLED_MODULES, PROVIDERS, PROXY, FLEET, LOAD_GUARD],
+    ids=lambda f: f.filename,
 )
 def test_the_shipped_file_is_the_template(file):
     assert (CONFIG / file.filename).read_text(encoding="utf-8") == file.template()

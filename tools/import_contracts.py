@@ -19,11 +19,12 @@ ROOT = Path(__file__).resolve().parent.parent
 ARROWS: dict[str, set[str]] = {
     "up": set(),
     "raspilot": {"up"},
-    "up_runner": {"up"},
+    "up_cluster": {"up"},
+    "up_runner": {"up", "up_cluster"},
     "up_flightlog": {"up"},
     "up_mavlink": {"up"},
     "up_ground": {"up", "up_flightlog", "up_mavlink"},
-    "up_proxy": {"up"},
+    "up_proxy": {"up", "up_cluster"},
     # It runs daemon, ground station and the compiled firmware in its own process.
     # Raspilot and its cogs are loaded like any application, never imported.
     "up_simulator": {"up", "up_ground", "up_flightlog", "up_mavlink", "up_rig"},
@@ -37,6 +38,8 @@ PROXY_MAY_USE = {
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
 LAYERS = (
     "telemetry_frame",
+    "doctor",
+    "bundle",
     "cli | (flight_log) | testing | public",
     "program",
     "registrar",
@@ -129,7 +132,7 @@ def contracts() -> str:
     lines += _layers()
     for name, allowed in arrows.items():
         forbidden = sorted(set(arrows) - allowed - {name})
-        if name == "up_proxy":
+        if name in ("up_proxy", "up_cluster"):
             forbidden += _parts_of_up_the_proxy_may_not_use()
         lines += _contract(name, forbidden)
     return "\n".join(lines) + "\n"

@@ -43,11 +43,35 @@ def documents(schema: Schema, text: str) -> str:
         "events": [("condition", "alarm", "level", "code", "text", "when it is over"),
                    *map(_event_row, [*map(event_rule, schema.events), *schema.rules])],
     }  # fmt: skip
+    text = _with_tables(text, tables)
+    return re.sub(r"(?m)^(\| `x` \| 78 \| )\d+", rf"\g<1>{schema.size}", text)
+
+
+def troubleshooting(schema: Schema, text: str) -> str:
+    """Return docs/troubleshooting.md with the tables that the definitions determine."""
+    rules = [*map(event_rule, schema.events), *schema.rules]
+    # The source of each reading has the same code.
+    shown = {(each["code"], each["cure"]): each for each in reversed(rules) if each["cure"]}
+    tables: dict[str, list[Any]] = {
+        "alarms": [("shown", "level", "code", "cause, cure"),
+                   *((re.sub(r"\{.*?\}|^\w+(?= comes from)", "...", each["text"]), _level(each),
+                      f"`{each['code']}`", each["cure"]) for each in reversed(shown.values()))],
+        "vetoes": [("veto", "what to do"),
+                   *((each.text, each.cure) for each in schema.bits["vetoes"] if each.cure)],
+        "answers": [("code", "meaning"), *((f"`{r.code}`", r.text) for r in schema.answers)],
+        "reasons": [("code", "reason"),
+                    *((f"`{code}`", reason) for code, reason in schema.mode_reasons.items())],
+    }  # fmt: skip
+    return _with_tables(text, tables)
+
+
+def _with_tables(text: str, tables: dict[str, list[Any]]) -> str:
+    """Return a page with the rows of tables, each after its head, in their regions."""
     for name, (head, *rows) in tables.items():
         lines = [head, ("---",) * len(head), *filter(None, rows)]
         content = "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
         text = _region(text, content, f"<!-- schema {name} begin -->", "<!-- schema end -->")
-    return re.sub(r"(?m)^(\| `x` \| 78 \| )\d+", rf"\g<1>{schema.size}", text)
+    return text
 
 
 def _status_row(row: Item) -> tuple[Any, ...]:
@@ -81,10 +105,13 @@ def _event_row(rule: dict[str, Any]) -> tuple[Any, ...] | None:
     change = "" if "when" in rule else " changes"
     condition = path + ("".join(limits) or change or ("" if when else " is false"))
     hidden = f", not `{rule['unless']}`" if rule.get("unless") else ""
-    armed = rule.get("level_armed", rule["level"])
-    level = rule["level"] + (f", {armed} while armed" if armed != rule["level"] else "")
-    return (condition + hidden if "path" in rule else "link", rule["alarm"] or "-", level,
+    return (condition + hidden if "path" in rule else "link", rule["alarm"] or "-", _level(rule),
             f"`{rule['code']}`", rule["text"], rule.get("end") or "-")  # fmt: skip
+
+
+def _level(rule: dict[str, Any]) -> str:
+    armed = rule.get("level_armed", rule["level"])
+    return str(rule["level"]) + (f", {armed} while armed" if armed != rule["level"] else "")
 
 
 def answer_codes(schema: Schema, text: str) -> str:
@@ -153,6 +180,7 @@ OUTPUTS: dict[str, Callable[[Schema, str], str]] = {
     ),
     "android/raspilot/assets/commands.json": lambda *_: _commands().forms(),
     "docs/protocols.md": documents,
+    "docs/troubleshooting.md": troubleshooting,
 }
 
 

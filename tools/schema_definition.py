@@ -21,14 +21,14 @@ OUTCOME = {"code": None, "text": None, "level": "info"}
 ALARM: dict[str, Any] = {
          "kind": None, "when": "", "above": "", "below": "", "back": 0, "level": "warning",
          "armed": "", "code": "", "text": "", "end_code": "", "end": "", "event": "source",
-         "unless": "", "lasts": True, "hold_s": "", "awaited": {}}  # fmt: skip
+         "unless": "", "lasts": True, "hold_s": "", "awaited": {}, "cure": ""}  # fmt: skip
 EVENT = {"code": None, "kind": None, "text": None, "level": "info", "first": False,
-         "end_code": "", "end": "", "alarm": ""}  # fmt: skip
+         "end_code": "", "end": "", "alarm": "", "cure": ""}  # fmt: skip
 AWAITED = {"after": None, "code": None, "text": None, "level": ""}
 ROW: dict[str, Any] = {
        "name": None, "type": "", "bit": "", "about": "", "unit": "", "text": "", "values": {},
        "bits": (), "telemetry": True, "signal": True, "firmware": True, "row": {}, "alarm": {},
-       "second_alarm": {}, "event": {}, "finding": ""}  # fmt: skip
+       "second_alarm": {}, "event": {}, "finding": "", "cure": ""}  # fmt: skip
 FIELD: dict[str, Any] = {
        "name": None, "of": (), "type": "number", "unit": "", "about": "", "decimals": 3,
        "reading": "", "from": "", "key": "*", "row": {}, "labels": (), "optional": False,
@@ -74,6 +74,8 @@ class Schema:
         for name in ("hold_s", "pause_s", "max_pause_s", "quiet_s"):
             self.times[name] = data[name]
         self.events = [_item(EVENT, each) for each in data["events"]]
+        for each in self.events:
+            _check_cure(each, each.code)
 
     def _read_telemetry(self, data: dict[str, Any]) -> None:
         for name in ("silent_s", "late_s", "late_for_s", "drift", "new_clock_s"):
@@ -102,6 +104,8 @@ class Schema:
         for at, each in enumerate(self.status):
             each.offset = struct.calcsize(self.format[: at + 1])
         self.bits = {each.name: each.bits for each in self.status}
+        for veto in (each for each in self.bits.get("vetoes", ()) if each.firmware):
+            _check_cure(veto, veto.name)
         self.rows = [row for each in self.status for row in (each, *each.bits)]
 
     def _read_commands(self, data: dict[str, Any]) -> None:
@@ -182,25 +186,36 @@ def _rules(row: Item, path: str) -> list[dict[str, Any]]:
             "alarm": alarm.kind if alarm.lasts else "", "level_armed": alarm.armed or alarm.level,
             "unless": alarm.unless and f"{path.rpartition('.')[0]}.{alarm.unless}",
             "when": alarm.when, "above": alarm.above, "below": alarm.below, "back": alarm.back,
-            "finding": finding, "hold_s": alarm.hold_s,
+            "finding": finding, "hold_s": alarm.hold_s, "cure": alarm.cure,
         }  # fmt: skip
+        if alarm.event or alarm.lasts:
+            _check_cure(alarm, row.name)
         if alarm.awaited:
             awaited = _item(AWAITED, alarm.awaited)
             rule |= {"awaits": tuple(awaited.after), "awaited_code": awaited.code,
                      "awaited_text": awaited.text, "awaited_level": awaited.level}  # fmt: skip
         rules.append(rule)
     if row.event:
-        rules.append(event_rule(_item(EVENT, row.event)) | {"path": path, "type": row.kind})
+        event = _item(EVENT, row.event)
+        _check_cure(event, row.name)
+        rules.append(event_rule(event) | {"path": path, "type": row.kind})
     return rules
+
+
+def _check_cure(item: Item, place: str) -> None:
+    """Raise SchemaError where docs/troubleshooting.md has nothing to say to a warning or a veto."""
+    if not item.cure and getattr(item, "level", "veto") != "info":
+        raise SchemaError(f"{place}: 'cure' is missing")
 
 
 def event_rule(event: Item) -> dict[str, Any]:
     return {"event": event.kind, "code": event.code, "level": event.level, "text": event.text,
             "end_code": event.end_code, "end": event.end, "first": event.first,
-            "alarm": event.alarm}  # fmt: skip
+            "alarm": event.alarm, "cure": event.cure}  # fmt: skip
 
 
 def _source_rule(reading: str) -> dict[str, Any]:
     text = f"{reading} comes from {{value}} (was {{before}})"
+    cure = "the first one fell silent, or is back; their order is in `providers.yml`"
     return {"path": f"source.{reading}", "type": "text", "event": "source", "level": "warning",
-            "code": "source_changed", "text": text, "alarm": ""}  # fmt: skip
+            "code": "source_changed", "text": text, "alarm": "", "cure": cure}  # fmt: skip

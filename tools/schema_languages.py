@@ -156,8 +156,9 @@ def json_tree(schema: Schema) -> dict[str, Any]:
 
 def _given(rule: dict[str, Any]) -> dict[str, Any]:
     """Return the columns of a rule that differ from their defaults."""
+    hidden = ("hold_s", "cure")
     return {key: value for key, value in rule.items()
-            if key != "hold_s" and value != "" and (value or key == "when")}  # fmt: skip
+            if key not in hidden and value != "" and (value or key == "when")}  # fmt: skip
 
 
 def javascript(schema: Schema) -> str:

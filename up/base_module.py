@@ -29,6 +29,8 @@ class BaseModule:
     CONFIG: ClassVar[ConfigFile[Any] | None] = None
     WRITTEN_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
     """Files of the configuration folder that the module itself writes."""
+    IS_SET_BY_GROUND: ClassVar[bool] = False
+    """Whether a ground with the role pilot may set the keys of ``CONFIG``, for the next start."""
     SHED_ORDER: ClassVar[int | None] = None
     """When an overloaded program stops this module for good, lower first; None: never."""
     TIME_BUDGET_S: ClassVar[float] = BUDGET_S

@@ -26,6 +26,7 @@ from up.log import start_logging
 from up.mode import Mode
 from up.output import print_problems
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.deadline_watch import start_from_environment
 from up.system.exit_watchdog import ExitWatchdog
 from up.system.gc_scheduler import GcScheduler
 from up.system.notify import Notifier, WatchdogPinger
@@ -171,6 +172,7 @@ def run_application(
     from up.system.clock import use_monotonic_time
 
     use_monotonic_time(reactor)
+    start_from_environment(environ)
     application = None
     try:
         application = Application.find(start)

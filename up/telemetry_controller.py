@@ -28,6 +28,8 @@ MAX_LENGTH = 1000
 _INT_LIMIT = 2**63
 _PLAIN = frozenset((bool, int, float, str, type(None)))
 """Types that are never a map: skips the slow isinstance check."""
+_MAPS = (dict, Mapping)
+"""In this order: a dict needs no slow check either."""
 
 
 class TelemetryController(BaseStartedModule):
@@ -151,7 +153,7 @@ class TelemetryController(BaseStartedModule):
     def _content_of(self, module: BaseModule) -> Mapping[str, Any] | None:
         try:
             content = module.telemetry_content
-            if content is None or isinstance(content, Mapping):
+            if content is None or isinstance(content, _MAPS):
                 return content
             raise TypeError(f"telemetry_content is {type(content).__name__}, no map")
         except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
@@ -199,7 +201,7 @@ def merge(
     that raises while being read.
     """
     merged: dict[str, Any] = {}
-    owners: dict[tuple[str, ...], str] = {}
+    owners: dict[str | None, Any] = {}
     for module, content in contents:
         try:
             _merge_into(merged, content, module, (), owners, on_conflict)
@@ -213,42 +215,45 @@ def _merge_into(
     content: Mapping[str, Any],
     module: str,
     path: tuple[str, ...],
-    owners: dict[tuple[str, ...], str],
+    owners: dict[str | None, Any],
     on_conflict: Conflict,
 ) -> None:
+    """Merge a map at ``path``; ``owners`` has the module of each value of ``target``.
+
+    For a map it has the same of the map's values, and under None the module that gave it first.
+    """
+    is_too_deep = len(path) >= MAX_DEPTH
     for raw_key, raw in content.items():
         key = raw_key if isinstance(raw_key, str) else str(raw_key)
-        here = (*path, key)
-        if len(here) > MAX_DEPTH or not _is_sound(key):
+        if is_too_deep or not _is_sound(key):
             on_conflict(".".join(path), module, module)
             continue
-        if type(raw) not in _PLAIN and isinstance(raw, Mapping):
-            below = target.get(key)
-            if key in target and not isinstance(below, dict):
-                on_conflict(".".join(here), owners.get(here, "?"), module)
+        if type(raw) not in _PLAIN and isinstance(raw, _MAPS):
+            if key not in target:
+                target[key], owners[key] = {}, {None: module}
+            elif not isinstance(target[key], dict):
+                on_conflict(".".join((*path, key)), owners[key], module)
                 continue
-            if below is None:
-                below = target[key] = {}
-                owners.setdefault(here, module)
-            _merge_into(below, raw, module, here, owners, on_conflict)
+            _merge_into(target[key], raw, module, (*path, key), owners[key], on_conflict)
             continue
         try:
             value = _json_value(raw)
         except TypeError:
-            on_conflict(".".join(here), module, module)
+            on_conflict(".".join((*path, key)), module, module)
             continue
-        if key in target and (target[key] != value or isinstance(target[key], dict)):
-            on_conflict(".".join(here), owners.get(here, "?"), module)
-            continue
-        target[key] = value
-        owners.setdefault(here, module)
+        if key not in target:
+            target[key], owners[key] = value, module
+        elif isinstance(target[key], dict):
+            on_conflict(".".join((*path, key)), owners[key][None], module)
+        elif target[key] != value:
+            on_conflict(".".join((*path, key)), owners[key], module)
 
 
 def _json_value(value: Any, depth: int = 0) -> Any:
+    if value is None or value is True or value is False:
+        return value
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if value is None or isinstance(value, bool):
-        return value
     if isinstance(value, int) and -_INT_LIMIT <= value < _INT_LIMIT:
         return value
     if isinstance(value, str) and _is_sound(value):
@@ -264,7 +269,6 @@ def _is_sound(text: str) -> bool:
     if len(text) > MAX_LENGTH:
         return False
     try:
-        text.encode()
+        return text.isascii() or bool(text.encode())
     except UnicodeEncodeError:
         return False
-    return True

@@ -43,6 +43,11 @@ class Frame:
         above = value_at(self.content, path[:-1])
         return isinstance(above, Mapping) and above.get(path[-1], "") is None
 
+    def is_stale(self, reading: str, frame_age_s: float = 0.0) -> bool:
+        """Return whether a reading is too old to fly by; one without an age is not."""
+        age_ms = self.number("age_ms", reading)
+        return age_ms is not None and age_ms / 1000 + frame_age_s > READINGS[reading].stale_s
+
     @property
     def mode(self) -> str:
         """Return the flight mode that acts: the Raspberry Pi's while it flies; empty: unknown."""

@@ -93,12 +93,16 @@ $(BUILD)/unsigned.apk: $(RESOURCES) $(DEX) tools/assemble.py | $(BUILD)/debian-t
 	@$(PYTHON) tools/assemble.py $(RESOURCES) $(DEX) $@.loose
 	@rm -f $@ && zipalign -p 4 $@.loose $@ && rm $@.loose
 
+# Its sum is the one to compare with another computer's.
+unsigned: $(BUILD)/unsigned.apk
+	@cd $(BUILD) && sha256sum unsigned.apk
+
 # Another key also triggers signing.
 SIGNER := $(ANDROID_KEYSTORE) $(ANDROID_KEY_ALIAS)
 $(APK): $(BUILD)/unsigned.apk $(BUILD)/SIGNER.list tools/sign
 	@tools/sign $< $@ $(BUILD)/debug.keystore '$(TYPED_IN)'
 
-apk: $(APK)
+apk: $(APK) unsigned
 	@zipalign -c -p 4 $(APK) || { echo '$(APK) is not aligned' >&2; exit 1; }
 	@said=$$(apksigner -JXX:TieredStopAtLevel=1 verify --verbose --min-sdk-version $(LEAST) -Werr $(APK)) && \
 		echo "$$said" | grep -E '^(Verifies|Verified using v[123] )' || \

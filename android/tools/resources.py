@@ -3,7 +3,8 @@
 ``resources.py RES STUBS``: ``aapt`` knows the resources of a newer Android, too, and what an older
 one lacks ends the app there when it is drawn. It checks the XML files of all folders except those
 of newer versions (``values-v21``): names of the system's resources, elements of drawables, views of
-layouts. It does not check attributes: an older Android ignores unknown ones.
+layouts. It does not check names of attributes: an older Android ignores unknown ones. A displayed
+text that is not a string resource, which has no translation, is an error, too.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ SYSTEM = re.compile(r"([@?])(\+|\*)?android:(?:(\w+)/)?([\w.]+)")
 CONSTANT = re.compile(r"^  public static final int(?:\[\])? (\w+);$")
 CLASS = re.compile(r"class android\.R\$(\w+) ")
 VIEWS = ("android/view/", "android/widget/", "android/webkit/")
+ANDROID = "{http://schemas.android.com/apk/res/android}"
+DISPLAYED = ("contentDescription", "dialogMessage", "hint", "label", "summary", "text", "title")
 LAYOUT_WORDS = {"include", "merge", "requestFocus"}
 DRAWABLES = {
     *("animation-list", "bitmap", "clip", "color", "inset", "item", "layer-list", "level-list"),
@@ -78,6 +81,9 @@ def faults(file: Path, offered: Offer) -> Iterator[str]:
     """Yield the errors of one file, a sentence each."""
     kind = file.parent.name.split("-")[0]
     for element in ElementTree.parse(file).iter():
+        for name in DISPLAYED:
+            if element.get(f"{ANDROID}{name}", "@")[:1] not in ("@", "?"):
+                yield f"{file}: android:{name} of <{element.tag}> is not a string resource"
         for written, type_, name in names(element):
             if (type_, name.replace(".", "_")) not in offered.resources:
                 yield f"{file}: Android {LEAST} has no {written}"

@@ -4,7 +4,7 @@ from setuptools import find_packages, setup
 
 setup(
     name="raspilot-arduino-cog",
-    version="1.0.0",
+    version="0.1.0",
     description="The Arduino of Raspilot: readings, arming, flight modes, Outputs, gains, profile",
     license="MIT",
     python_requires=">=3.11",

@@ -4,7 +4,7 @@ from setuptools import find_packages, setup
 
 setup(
     name="raspilot-msp-cog",
-    version="1.0.0",
+    version="0.1.0",
     description="A Betaflight board of Raspilot in place of the Arduino, by MSP",
     license="MIT",
     python_requires=">=3.11",

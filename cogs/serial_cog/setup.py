@@ -4,7 +4,7 @@ from setuptools import find_packages, setup
 
 setup(
     name="raspilot-serial-cog",
-    version="1.0.0",
+    version="0.1.0",
     description="The serial line of Raspilot: finds the Arduino, keeps the port open, frames bytes",
     license="MIT",
     python_requires=">=3.11",

@@ -232,6 +232,11 @@ def _add_serve(verbs: Any) -> None:
         help="an aircraft, of the proxy that --host and --port name or at the given address;"
         " again for each one",
     )
+    serve.add_argument(
+        "--paired",
+        action="store_true",
+        help="every aircraft of the proxy for which this user has a key, see 'up-ground pair'",
+    )
     _add_connection(serve, aircraft=False)
     serve.add_argument(
         "--metrics",

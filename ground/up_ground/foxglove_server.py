@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import socket
 import time
 from collections.abc import Mapping
 from typing import Any
@@ -17,8 +19,9 @@ from up.flight_log.command_schema import schema_of
 from up.flight_log.foxglove import LOCATION_FIX_SCHEMA, PLACE_TOPIC, location_fix
 from up.flight_log.json_message import number_at
 from up.protocols.general_message import GeneralMessage
+from up.sanitize_text import sanitize_text
 from up_ground.link_status import LinkState
-from up_ground.one_shot_task import LinkTask
+from up_ground.one_shot_task import LinkTask, print_error
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
@@ -41,7 +44,7 @@ class FoxgloveServer(LinkTask):
         super().__init__(reactor, settings, tokens)
         self.telemetry = Telemetry()
         self._listen = listen
-        self._reported = ""
+        self._reported = self._logged = ""
         context = foxglove.Context()
         self._context = context
         schema: Any = schema_of(TelemetryCommand)
@@ -61,10 +64,9 @@ class FoxgloveServer(LinkTask):
                 context=self._context,
             )
         except RuntimeError as error:
-            text = f"cannot open {authority(host, self._listen.port)}: {error}"
-            self.fail(
-                f"{text} (--listen ADDRESS:PORT selects another)", "listen_failed", EXIT_FAILED
-            )
+            text = f"cannot open {authority(host, self._listen.port)}"
+            why = _why_not_open(host, self._listen.port) or str(error)
+            self.fail(f"{text}: {why}", "listen_failed", EXIT_FAILED)
             return
         address = authority(host, self._server.port)
         self.echo(f"Foxglove: ws://{address}", "foxglove_open", address=address)
@@ -97,11 +99,19 @@ class FoxgloveServer(LinkTask):
 
     def _check(self) -> None:
         self._report()
+        problem, code = self._problem
+        if problem != self._logged and (code or not problem):
+            # There may be no client.
+            self._logged = problem
+            if problem:
+                print_error(sanitize_text(problem), code)
+            else:
+                self.echo("telemetry arrives", "heard")
         self.after(self._reactor, "check", CHECK_S, self._check)
 
     def _report(self) -> None:
-        """Show clients, also new ones, why there are no frames, and that they are back."""
-        problem = self._problem
+        """Show clients, also new ones, why frames are missing, and that they are back."""
+        problem, _ = self._problem
         if problem:
             self._server.publish_status(problem, StatusLevel.Warning, _LINK)
         elif self._reported:
@@ -109,13 +119,29 @@ class FoxgloveServer(LinkTask):
         self._reported = problem
 
     @property
-    def _problem(self) -> str:
+    def _problem(self) -> tuple[str, str]:
+        """Return why frames are missing, with its code, empty before the first attempt ended."""
         status = self.link.status
         if not status.is_open:
-            return f"no link to the aircraft: {status.reason}"
+            return f"no link to the aircraft: {status.reason or 'connecting'}", status.code
         if status.key_fault is not None:
-            return status.key_fault[0]
-        return "the aircraft is silent" if self.telemetry.is_silent(self._reactor.seconds()) else ""
+            return status.key_fault
+        is_silent = self.telemetry.is_silent(self._reactor.seconds())
+        return ("the aircraft is silent", "silent") if is_silent else ("", "")
+
+
+def _why_not_open(host: str, port: int) -> str:
+    """Return what to do about an address that cannot be opened; empty: it can be."""
+    others = "--listen ADDRESS:PORT selects another"
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family) as probe:
+        try:
+            probe.bind((host, port))
+        except OSError as error:
+            if error.errno == errno.EADDRINUSE:
+                return f"another program has this port; end it ({others})"
+            return f"{error.strerror} ({others})"
+    return ""
 
 
 def _place_of(data: Mapping[str, Any], time_ns: int) -> dict[str, Any] | None:

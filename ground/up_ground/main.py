@@ -54,7 +54,9 @@ def send(options: argparse.Namespace) -> int:
     """Check a Command against the catalogue, where it is listed, and send it."""
     catalogue = Catalogue.installed()
     cls = catalogue.get(options.name)
-    data = parse_fields(options.fields)
+    fields = [] if cls is None else command_fields(cls)["fields"]
+    texts = {each["name"] for each in fields if each["type"] == "text"}
+    data = parse_fields(options.fields, texts)
     try:
         encode(options.name, data)
     except ValueError as error:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import getpass
+import json
 import os
 import sys
 from typing import Any
 
 from up.cli.cli_error import UsageError
-from up.cli.option_parser import EXIT_OK
+from up.cli.option_parser import EXIT_OK, add_json_option
 from up.cli.verb import add_verb
 from up.output import echo
 from up.protocols.pairing import parse_pairing
@@ -35,16 +36,21 @@ def add_pair(verbs: Any) -> None:
     action = pair.add_mutually_exclusive_group()
     action.add_argument("--list", action="store_true", help="list the keys, without secrets")
     action.add_argument("--forget", metavar="AIRCRAFT", help="remove the key of this aircraft")
+    add_json_option(pair)
 
 
 def pair(options: argparse.Namespace) -> int:
     """Store, list or remove keys of this user."""
     store = KeyStore(state_folder(os.environ))
     if options.list:
-        for each in store.all().values():
-            fields = {"aircraft": each.aircraft, "key": each.name, "role": each.role}
-            text = f"{each.aircraft}: key {each.name} ({each.role}), id {each.key_id}"
-            echo(text, "key", **fields, key_id=each.key_id)
+        keys = store.all().values()
+        if options.json:
+            names = ("aircraft", "name", "role", "key_id")
+            rows = [{name: getattr(each, name) for name in names} for each in keys]
+            echo(json.dumps(rows, indent=1))
+            return EXIT_OK
+        for each in keys:
+            echo(f"{each.aircraft}: key {each.name} ({each.role}), id {each.key_id}")
         return EXIT_OK
     if options.forget is not None:
         if not store.forget(options.forget):

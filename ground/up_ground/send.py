@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import secrets
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from typing import Any, NoReturn
 
 from up.cli.cli_error import UsageError
@@ -103,18 +103,20 @@ class Send(CommandTask):
         self.fail(text, "no_content", EXIT_NO_ANSWER)
 
 
-def parse_fields(words: Iterable[str]) -> dict[str, Any]:
+def parse_fields(words: Iterable[str], texts: Container[str] = ()) -> dict[str, Any]:
     """Return the data of a Command; a dot in a key opens an object.
 
     A value is taken as JSON where it is JSON (``2``, ``true``, ``null``, ``"2"``, ``{...}``) and
-    as text otherwise. Raises UsageError.
+    as text otherwise; numbers and flags of the keys in ``texts`` stay as typed. Raises UsageError.
     """
     data: dict[str, Any] = {}
     for word in words:
         key, equals, text = word.partition("=")
         if not equals or not key:
             raise UsageError(f"{word!r} is not a field: write key=value", "invalid_field")
-        _put(data, key, _value(text))
+        value = _value(text)
+        is_typed = key in texts and isinstance(value, int | float)
+        _put(data, key, text if is_typed else value)
     return data
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 from up.commands.command import BaseCommand
+from up.commands.parameter_commands import ParameterRequestCommand, ParameterValuesCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code
 from up.mission.plan_transfer import PlanOutcome, PlanTransfer
@@ -13,6 +14,7 @@ from up.mission.reliable_requests import Notify, ReliableRequests, Reply
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Clock
 from up.telemetry_frame import Frame
+from up_mavlink.modes import ModeList
 from up_mavlink.parameters import Parameters
 from up_mavlink.personas import Persona
 from up_mavlink.plan_rows import Rows, write_rows
@@ -47,6 +49,7 @@ class Aircraft:
         self.persona = persona
         self.system_id = system_id
         self.parameters = Parameters(system_id)
+        self.modes = ModeList(persona)
         self._clock = clock
         self._port = port
         self._requests = ReliableRequests(clock, self._send_command, tries=1)
@@ -61,11 +64,14 @@ class Aircraft:
     def on_frame(self, content: Mapping[str, Any], beacon: int | None) -> None:
         self.frame = Frame(content, beacon)
         self.received_s = self._clock.seconds()
+        self.modes.update(self.frame)
 
     def on_message(self, message: GeneralMessage) -> None:
         """Take any message of the aircraft that is not telemetry."""
         if message.name == PIDTuningsValuesCommand.NAME:
             self.parameters.on_gains(message.data)
+        elif message.name == ParameterValuesCommand.NAME:
+            self.parameters.on_values(message.data)
         self._requests.on_message(message)
         for transfer in list(self._transfers.values()):
             transfer.on_message(message)
@@ -94,9 +100,10 @@ class Aircraft:
 
         self._requests.ask(first, on_reply)
 
-    def read_gains(self, on_end: Callable[[], object]) -> None:
-        """Ask for the gains; an aircraft without any has no such parameters."""
-        self.ask([PIDTuningsCommand(request=True)], lambda _: on_end())
+    def read_parameters(self, on_end: Callable[[], object]) -> None:
+        """Ask for gains and keys; an aircraft without any has no such parameters."""
+        keys = [ParameterRequestCommand()]
+        self.ask([PIDTuningsCommand(request=True)], lambda _: self.ask(keys, lambda _: on_end()))
 
     def upload(self, rows: Rows, on_end: Callable[[PlanOutcome], object]) -> None:
         def ended(outcome: PlanOutcome) -> None:

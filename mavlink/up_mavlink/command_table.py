@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from up.commands.altitude_command import AltitudeCommand
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightModeCommand
+from up.commands.heading_command import HeadingCommand
 from up.commands.mission_commands import MissionItemCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.refusal import Code
 from up.mission.reliable_requests import NO_ANSWER
 from up.telemetry_frame import Frame
+from up_mavlink.modes import mode_of
 from up_mavlink.personas import Persona
 
 ACCEPTED, TEMPORARILY_REJECTED, DENIED, UNSUPPORTED, FAILED, IN_PROGRESS = range(6)
@@ -32,6 +35,7 @@ RESULTS = {
 }
 """The result for a code of up.nack; DENIED for all others."""
 _ABOVE_SEA, _ABOVE_HOME = (0, 5), (3, 6)
+_FRAMES = "the frame must be 0 or 5 (above sea level), 3 or 6 (above home)"
 MIN_RADIUS_M = 10.0
 
 
@@ -99,8 +103,7 @@ def target_of(request: Request) -> NavigationTargetCommand:
     """Return the target of a position; raises as ``translate``."""
     latitude, longitude, altitude = request.params[4:7]
     if request.frame not in (*_ABOVE_SEA, *_ABOVE_HOME):
-        text = "the frame must be 0 or 5 (above sea level), 3 or 6 (above home)"
-        raise CommandNotTranslatedError(DENIED, text)
+        raise CommandNotTranslatedError(DENIED, _FRAMES)
     kind = "altitude" if request.frame in _ABOVE_SEA else "height"
     radius = abs(request.number(3)) if request.command == DO_REPOSITION else 0.0
     return NavigationTargetCommand.from_data(
@@ -123,7 +126,7 @@ def _arm(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
 
 def mode_commands(number: int, persona: Persona, frame: Frame) -> list[BaseCommand]:
     """Return what selects a custom mode; GUIDED circles where the aircraft is, as elsewhere."""
-    mode = persona.mode_of(number)
+    mode = mode_of(persona, frame, number)
     if mode is None:
         text = f"mode {number} of {persona.name} is not a mode of this aircraft"
         raise CommandNotTranslatedError(DENIED, text)
@@ -153,6 +156,50 @@ def _home(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]
     return [HomeCommand.from_data(home)]
 
 
+def _land(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
+    """Return LAND at home, or at the place of the request; without an altitude, that of home."""
+    latitude, longitude, altitude = request.params[4:7]
+    land = FlightModeCommand("LAND")
+    if not latitude and not longitude:
+        return [land]
+    if altitude is None:
+        request = replace(request, params=[*request.params[:6], 0.0], frame=_ABOVE_HOME[0])
+    target = target_of(request)
+    # No other mode may follow a target on the ground, should LAND refuse it.
+    return [target] if frame.mode == land.mode else [FlightModeCommand("LOITER"), target, land]
+
+
+def _altitude(altitude: float | None, kind: float | None, frame: Frame) -> list[BaseCommand]:
+    """Return what changes the altitude in the present mode; ``kind`` is a frame of MAVLink."""
+    if kind in _ABOVE_HOME:
+        home_m = frame.number("home", "altitude")
+        if home_m is None:
+            raise CommandNotTranslatedError(DENIED, "home is unknown")
+        altitude = None if altitude is None else altitude + home_m
+    elif kind not in _ABOVE_SEA:
+        raise CommandNotTranslatedError(DENIED, _FRAMES)
+    names = ("latitude", "longitude", "radius")
+    target = {name: frame.number("navigation", "target", name) for name in names}
+    if frame.mode == "GUIDED" and target["latitude"] is not None:
+        return [NavigationTargetCommand.from_data({**target, "altitude": altitude})]
+    return [AltitudeCommand.from_data({"altitude": altitude, "mode": "required"})]
+
+
+def _change_altitude(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
+    return _altitude(request.params[0], request.params[1], frame)
+
+
+def _guided_altitude(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
+    return _altitude(request.params[6], request.frame, frame)
+
+
+def _guided_heading(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
+    if request.number(1) != 0:
+        text = "the course over the ground is held, not the heading: parameter 1 must be 0"
+        raise CommandNotTranslatedError(DENIED, text)
+    return [HeadingCommand.from_data({"heading": request.params[1], "mode": "required"})]
+
+
 def _start(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
     return [FlightModeCommand("MISSION")]
 
@@ -173,12 +220,15 @@ def item_command(item: int) -> MissionItemCommand:
 _TABLE: dict[int, Callable[[Request, Persona, Frame], list[BaseCommand]]] = {
     17: _mode("LOITER"),
     20: _mode("RETURN"),
-    21: _mode("LAND"),
+    21: _land,
     22: _mode("TAKEOFF"),
     DO_SET_MODE: _set_mode,
     179: _home,
+    186: _change_altitude,
     DO_REPOSITION: _reposition,
     193: _pause,
     300: _start,
     400: _arm,
+    43001: _guided_altitude,
+    43002: _guided_heading,
 }

@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from up.commands.command import InvalidCommandError
+from up.commands.parameter_commands import ParameterSetCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
+from up.commands.refusal import Code
 from up.mission.reliable_requests import Reply
 from up.system.clock import Clock, Timer, cancel
 from up_mavlink.aircraft import Aircraft
@@ -18,7 +20,7 @@ from up_mavlink.parameters import (
     REAL32,
     ParameterRefusedError,
 )
-from up_mavlink.status_texts import REFUSED
+from up_mavlink.status_texts import REFUSED, SEVERITIES
 
 LIST_S = 0.005
 """Between two values of a list: a slow radio must not get them all together."""
@@ -62,29 +64,29 @@ class ParameterProtocol:
 
     def _on_param_request_list(self, message: Any) -> None:
         cancel(self._timer)
-        self._list_with_gains(self._clock.seconds() + CONTROL_S)
+        self._list_with_parameters(self._clock.seconds() + CONTROL_S)
 
     def _on_param_request_read(self, message: Any) -> None:
-        self._with_gains(lambda: self._read(message))
+        self._with_parameters(lambda: self._read(message))
 
     def _on_param_set(self, message: Any) -> None:
         if len(self._sets) < MAX_WAITING:
             self._sets.append(message)
             if not self._is_setting:
                 self._is_setting = True
-                self._with_gains(self._set_next)
+                self._with_parameters(self._set_next)
 
-    def _with_gains(self, then: Callable[[], object], *, is_new: bool = False) -> None:
-        if self._aircraft.parameters.has_gains and not is_new:
+    def _with_parameters(self, then: Callable[[], object], *, is_new: bool = False) -> None:
+        if self._aircraft.parameters.is_known and not is_new:
             then()
         else:
-            self._aircraft.read_gains(then)
+            self._aircraft.read_parameters(then)
 
-    def _list_with_gains(self, end_s: float) -> None:
+    def _list_with_parameters(self, end_s: float) -> None:
         if self._aircraft.problem and self._clock.seconds() < end_s:
-            self._timer = self._clock.callLater(RETRY_S, self._list_with_gains, end_s)
+            self._timer = self._clock.callLater(RETRY_S, self._list_with_parameters, end_s)
         else:
-            self._with_gains(lambda: self._list(iter(self._values())), is_new=True)
+            self._with_parameters(lambda: self._list(iter(self._values())), is_new=True)
 
     def _values(self) -> dict[str, float]:
         return self._aircraft.parameters.values(self._aircraft.frame)
@@ -128,12 +130,19 @@ class ParameterProtocol:
         message = self._sets.popleft()
         name, parameters = _name_of(message), self._aircraft.parameters
 
-        def on_reply(reply: Reply, error: int = NOT_PERMITTED) -> None:
+        def on_reply(reply: Reply, error: int = 0) -> None:
             if reply.code:
+                is_invalid = reply.code == Code.INVALID.value
                 self._say(REFUSED, f"{name}: {reply.reason}")
-                self._refuse(message, name, error)
+                self._refuse(
+                    message, name, error or (OUT_OF_RANGE if is_invalid else NOT_PERMITTED)
+                )
             elif isinstance(command, PIDTuningsCommand):
                 parameters.on_gains(command.pids or {})
+            elif isinstance(command, ParameterSetCommand):
+                parameters.on_set(name, message.param_value)
+                key = f"{name} ({command.file}: {command.key})"
+                self._say(SEVERITIES["warning"], f"{key} acts at the next start of the program")
             if name in self._values():
                 self._send_value(name, None if reply.code else message.param_value)
             self._set_next()

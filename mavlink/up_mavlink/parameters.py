@@ -1,4 +1,4 @@
-"""Parameters: the gains, which can be set, and what else a ground station reads as numbers."""
+"""Parameters: gains and keys of configuration files, and what else is read as a number."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ import struct
 from collections.abc import Mapping
 from typing import Any
 
-from up.commands.command import BaseCommand
+from up.commands.command import BaseCommand, InvalidCommandError
 from up.commands.gains import AXES, gain_set_from_data
+from up.commands.parameter_commands import ParameterSetCommand, ParameterValuesCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
+from up.fields import number_text
 from up.telemetry_frame import Frame
+from up_mavlink.parameter_names import names_of
 
 REAL32 = 9
 """MAV_PARAM_TYPE_REAL32, the type of every parameter."""
@@ -49,10 +52,13 @@ class Parameters:
     def __init__(self, system_id: int) -> None:
         self._system_id = system_id
         self._gains: Mapping[str, Any] | None = None
+        self._files: dict[str, dict[str, Any]] = {}
+        self._keys: dict[str, tuple[str, str]] = {}
 
     @property
-    def has_gains(self) -> bool:
-        return self._gains is not None
+    def is_known(self) -> bool:
+        """Return whether gains and keys have arrived."""
+        return self._gains is not None and bool(self._files)
 
     def on_gains(self, data: Mapping[str, Any]) -> None:
         """Take a message of gains; an invalid one changes nothing."""
@@ -61,6 +67,22 @@ class Parameters:
         except ValueError:
             return
         self._gains = data
+
+    def on_values(self, data: Mapping[str, Any]) -> None:
+        """Take a message of a file's keys; an invalid one changes nothing."""
+        try:
+            message = ParameterValuesCommand.from_data(data)
+        except InvalidCommandError:
+            return
+        self._files[message.file] = {**message.values, **message.next_start}
+        keys = [(file, key) for file, values in self._files.items() for key in values]
+        self._keys = names_of(keys)
+
+    def on_set(self, name: str, value: float) -> None:
+        """Take a value that the aircraft has written into a file."""
+        file, key = self._keys[name]
+        kind = type(self._files[file][key])
+        self._files[file][key] = kind(_decimal(value))
 
     def values(self, frame: Frame) -> dict[str, float]:
         """Return all values."""
@@ -74,6 +96,10 @@ class Parameters:
             gains = (self._gains or {}).get(loop, {}).get(axis)
             if gains is not None:
                 found[name] = float(gains[term])
+        for name, (file, key) in self._keys.items():
+            value = self._files[file].get(key)
+            if isinstance(value, int | float) and math.isfinite(value):
+                found.setdefault(name, float(value))
         return dict(sorted(found.items()))
 
     def set(self, name: str, value: float, type_: int, frame: Frame) -> BaseCommand | None:
@@ -93,6 +119,8 @@ class Parameters:
             return None
         if name == PERIOD:
             return TelemetryFrequencyCommand.from_data({"frequency": value})
+        if name in self._keys:
+            return self._setting(name, value)
         if name not in _GAINS:
             raise ParameterRefusedError(f"{name} can only be read", READ_ONLY)
         loop, axis, term = _GAINS[name]
@@ -102,6 +130,13 @@ class Parameters:
         }
         pids[loop][axis][term] = _decimal(value)
         return PIDTuningsCommand.from_data({"pids": pids})
+
+    def _setting(self, name: str, value: float) -> ParameterSetCommand:
+        file, key = self._keys[name]
+        setting = number_text(_decimal(value))
+        if isinstance(self._files[file][key], bool):
+            setting = {"0": "false", "1": "true"}.get(setting, setting)
+        return ParameterSetCommand(file, key, setting)
 
 
 def single(value: float) -> float:

@@ -11,7 +11,7 @@ _PLANE = {
     "ACRO": 0, "CIRCLE": 1, "RATE": 4, "FBW": 5, "CRUISE": 7, "MISSION": 10, "RETURN": 11,
     "LOITER": 12, "TAKEOFF": 13, "GUIDED": 15, UNKNOWN_MODE: 16, "GLIDE": 24, "LAND": 26,
 }  # fmt: skip
-"""ArduPlane's numbers. A mode that ArduPlane lacks is shown as its nearest one."""
+"""ArduPlane's numbers, where one of its modes is near ours; others get one in ``modes.py``."""
 
 
 def _px4(main: int, sub: int = 0) -> int:
@@ -21,7 +21,7 @@ def _px4(main: int, sub: int = 0) -> int:
 _PX4 = {
     "ACRO": _px4(1), "CIRCLE": _px4(2), "CRUISE": _px4(3), "TAKEOFF": _px4(4, 2),
     "LOITER": _px4(4, 3), "MISSION": _px4(4, 4), "RETURN": _px4(4, 5), "LAND": _px4(4, 6),
-    "RATE": _px4(5), "GUIDED": _px4(6), "FBW": _px4(7), "GLIDE": _px4(7),
+    "RATE": _px4(5), "GUIDED": _px4(6), "FBW": _px4(7),
     UNKNOWN_MODE: _px4(7),
 }  # fmt: skip
 # The first name of a number is the one that it selects.

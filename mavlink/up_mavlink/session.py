@@ -33,6 +33,7 @@ from up_mavlink.command_table import (
     translate,
 )
 from up_mavlink.mission_protocol import MissionProtocol
+from up_mavlink.modes import AVAILABLE, CURRENT, MONITOR, NUMBERS, current_mode
 from up_mavlink.parameter_protocol import ParameterProtocol
 from up_mavlink.status_texts import REFUSED, SEVERITIES, StatusTexts, messages_of
 from up_mavlink.streams import MISSION_CURRENT, Streams
@@ -179,17 +180,29 @@ class Session:
 
     def _send_telemetry(self, name: str) -> bool:
         """Send a message by its name; False: unknown, or without content."""
+        aircraft = self._aircraft
         if name == "HEARTBEAT":
-            message = heartbeat(self._m, self._aircraft.frame, self._aircraft.persona)
+            message = heartbeat(self._m, aircraft.frame, aircraft.persona)
         elif name == MISSION_CURRENT:
             message = self._mission_current()
+        elif name == CURRENT:
+            message = current_mode(self._m, aircraft.frame, aircraft.persona)
+        elif name == MONITOR:
+            message = aircraft.modes.monitor(self._m)
         elif name in BUILDERS:
-            message = BUILDERS[name][0](self._m, self._aircraft.frame)
+            message = BUILDERS[name][0](self._m, aircraft.frame)
         else:
             return False
         if message is not None:
             self._send(message)
         return message is not None
+
+    def _send_modes(self, request: Request) -> bool:
+        """Send the flight mode of the index in parameter 2, or all; False: no such mode."""
+        messages = self._aircraft.modes.messages(self._m, int(request.number(2)))
+        for message in messages:
+            self._send(message)
+        return bool(messages)
 
     def _mission_current(self) -> Any:
         frame = self._aircraft.frame
@@ -275,7 +288,9 @@ class Session:
             self._on_interval(request, end)
         elif request.command in _REQUESTS:
             name = _REQUESTS[request.command] or self._name_of(request.number(1))
-            end(ACCEPTED if self._send_telemetry(name) else UNSUPPORTED)
+            is_list = name == AVAILABLE
+            is_sent = self._send_modes(request) if is_list else self._send_telemetry(name)
+            end(ACCEPTED if is_sent else UNSUPPORTED)
         elif request.command == PREARM_CHECKS:
             end(ACCEPTED)
             vetoes = self._aircraft.frame.texts("vetoes") or []
@@ -292,7 +307,7 @@ class Session:
 
     def _name_of(self, number: float) -> str:
         message = self._m.mavlink_map.get(int(number))
-        return str(message.msgname) if message is not None else ""
+        return NUMBERS.get(int(number), "") if message is None else str(message.msgname)
 
     def _on_interval(self, request: Request, end: Callable[..., None]) -> None:
         number = int(request.number(1))

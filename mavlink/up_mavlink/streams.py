@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from up_mavlink.modes import CURRENT, MONITOR
 from up_mavlink.telemetry_messages import BUILDERS
 
 MIN_INTERVAL_S = 0.02
@@ -12,6 +13,8 @@ MISSION_CURRENT = "MISSION_CURRENT"
 DEFAULTS_S: dict[str, float | None] = {
     **{name: interval_s for name, (_, interval_s) in BUILDERS.items()},
     MISSION_CURRENT: 1.0,
+    CURRENT: 1.0,
+    MONITOR: 3.0,
 }
 STREAMS = {
     2: ("SYS_STATUS", "GPS_RAW_INT", MISSION_CURRENT),

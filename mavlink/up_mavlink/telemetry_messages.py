@@ -10,7 +10,8 @@ from typing import Any
 from up.commands.telemetry_schema import READINGS
 from up.telemetry_frame import Frame
 from up.version import VERSION
-from up_mavlink.personas import UNKNOWN_MODE, Persona
+from up_mavlink.modes import number_of
+from up_mavlink.personas import Persona
 
 FIXED_WING = 1
 CUSTOM_MODE, ARMED = 1, 128
@@ -32,7 +33,7 @@ def heartbeat(m: Any, frame: Frame, persona: Persona) -> Any:
     state = ACTIVE if is_flying else STANDBY
     if frame.flag("arduino", "failsafe") or frame.text("failsafe", "cause"):
         state = CRITICAL
-    mode = persona.number_of(frame.mode or UNKNOWN_MODE)
+    mode = number_of(persona, frame, frame.mode)
     base = CUSTOM_MODE | (ARMED if frame.flag("armed") else 0)
     return m.MAVLink_heartbeat_message(FIXED_WING, persona.autopilot, base, mode, state, 3)
 
@@ -68,7 +69,7 @@ def _sys_status(m: Any, frame: Frame) -> Any:
 
 def _attitude(m: Any, frame: Frame) -> Any:
     angles = [frame.number("orientation", name) for name in ("roll", "pitch", "yaw")]
-    if None in angles or _is_stale(frame, "orientation"):
+    if None in angles or frame.is_stale("orientation"):
         return None
     rates = [frame.number("rates", name) or 0.0 for name in ("roll", "pitch", "yaw")]
     roll, pitch, yaw = (math.radians(each or 0.0) for each in angles)
@@ -206,14 +207,9 @@ BUILDERS: dict[str, tuple[Build, float | None]] = {
 """Each message with its interval in seconds until a ground sets another; None: on request."""
 
 
-def _is_stale(frame: Frame, reading: str) -> bool:
-    age_ms = frame.number("age_ms", reading)
-    return age_ms is not None and age_ms > 1000 * READINGS[reading].stale_s
-
-
 def _pulses(frame: Frame, part: str, names: tuple[str, ...]) -> list[int] | None:
     pulses = [frame.number(part, name) for name in names]
-    if pulses[0] is None or _is_stale(frame, part):
+    if pulses[0] is None or frame.is_stale(part):
         return None
     return [0 if each is None else _bounded(round(each), 0, U16 - 1) for each in pulses]
 

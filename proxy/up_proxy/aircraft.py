@@ -1,5 +1,7 @@
 """One aircraft by name: its airborne connection, its grounds, the two leases."""
 
+from collections.abc import Iterable
+
 from up.log import Limited, UpLogger
 from up.protocols.binary_line import PACKED
 from up.protocols.control_lease import ALIVE_S, ControlLease
@@ -27,7 +29,7 @@ class AircraftSession(Owner):
         self._poller = poller
         self._limited = limited
         self.air_lease: ControlLease[Connection] = ControlLease()
-        self.grounds = GroundSide(self, poller)
+        self.grounds = self._new_grounds()
         self.air_bytes = 0
         self.ground_bytes = 0
         self.dropped_lines = 0
@@ -38,6 +40,12 @@ class AircraftSession(Owner):
         self._is_watch_due = False
         self._shown_online = False
         self._shown_owner: int | None = None
+
+    def _new_grounds(self) -> GroundSide:
+        return GroundSide(self, self._poller)
+
+    def close(self) -> None:
+        """End its use: it is deserted."""
 
     def is_online(self, now_s: float) -> bool:
         return self.air_lease.live_owner(now_s) is not None
@@ -69,16 +77,11 @@ class AircraftSession(Owner):
         self.air_bytes += len(lines)
         if PREFIX in lines and (lines.startswith(PREFIX) or b"\n" + PREFIX in lines):
             before = lines.count(b"\n")
-            lines = _without(PREFIX, lines)
+            lines = without(PREFIX, lines)
             self.dropped_lines += before - lines.count(b"\n")
             if not lines:
                 return
-        plain = lines if _PACKED not in lines else _without(_PACKED, lines)
-        for ground in self.grounds.connections:
-            readable = lines if ground.reads_packed else plain
-            dropped = ground.relay(readable) if readable else 0
-            if dropped:
-                self.dropped_lines += dropped
+        self.dropped_lines += relay_to_all(self.grounds.connections, lines)
 
     def on_drained(self, connection: Connection) -> None:
         if self.air_lease.owner is connection:
@@ -172,7 +175,21 @@ class AircraftSession(Owner):
             ground.resume()
 
 
-def _without(prefix: bytes, lines: bytes) -> bytes:
+def relay_to_all(grounds: Iterable[Connection], lines: bytes) -> int:
+    """Send lines of an aircraft; return how many old ones were dropped to make room.
+
+    Packed lines go to the grounds that read them.
+    """
+    plain = lines if _PACKED not in lines else without(_PACKED, lines)
+    dropped = 0
+    for ground in grounds:
+        readable = lines if ground.reads_packed else plain
+        if readable:
+            dropped += ground.relay(readable)
+    return dropped
+
+
+def without(prefix: bytes, lines: bytes) -> bytes:
     """Return the whole lines that do not begin with `prefix`."""
     # Split at LF alone; bytes.splitlines would also split at CR.
     return b"".join(each + b"\n" for each in lines.split(b"\n")[:-1] if not each.startswith(prefix))

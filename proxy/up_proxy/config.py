@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from up.config import ConfigFile, key, section
+from up_cluster.config import ClusterConfig
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +133,7 @@ class ProxyConfig:
         max_length=4096,
     )
     tls: TLSConfig = section(TLSConfig)
+    cluster: ClusterConfig = section(ClusterConfig)
     limits: LimitsConfig = section(LimitsConfig)
 
 

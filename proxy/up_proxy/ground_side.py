@@ -112,6 +112,7 @@ class GroundSide(Owner):
             # A legacy client cannot request control: it takes free control by sending.
             self._grant(connection)
             self._aircraft.announce()
+        if connection is self.lease.owner:
             self._relay(connection, lines)
         else:
             self._aircraft.rejected_lines += lines.count(b"\n")

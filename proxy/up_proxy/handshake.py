@@ -114,7 +114,7 @@ class Handshake(Owner):
         connection.reads_packed = hello.packed
         connection.reads_attitude = hello.attitude
         if self._side is Side.AIRBORNE:
-            _check_name(connection, hello.aircraft)
+            check_name(connection, hello.aircraft)
             lease = session.air_lease
             resumed = lease.is_resumed_by(hello.token)
             if not resumed and not lease.is_free(self._poller.now_s):
@@ -136,7 +136,7 @@ class Handshake(Owner):
         try:
             session = self._registry.session(LEGACY_AIRCRAFT)
             if self._side is Side.AIRBORNE:
-                _check_name(connection, LEGACY_AIRCRAFT)
+                check_name(connection, LEGACY_AIRCRAFT)
                 if not session.air_lease.is_free(self._poller.now_s):
                     raise HelloError(TAKEN, "an aircraft of this name is connected")
                 session.admit(connection)
@@ -145,16 +145,19 @@ class Handshake(Owner):
                 session.grounds.admit(connection, Access.COMMAND, None)
                 session.announce(newcomer=connection)
         except HelloError as error:
-            # A legacy client would read an error line as a malformed message: it gets none.
-            self.refused[error.code] += 1
-            self._lingering.begin(connection, self._poller.now_s)
-            connection.fail(error.reason)
+            self._refuse_legacy(connection, error)
             return
         if silent:
             connection.owner = LegacyClientAdapter(connection.owner, self)
 
+    def _refuse_legacy(self, connection: Connection, error: HelloError) -> None:
+        """Close without a line: a legacy client would read it as a malformed message."""
+        self.refused[error.code] += 1
+        self._lingering.begin(connection, self._poller.now_s)
+        connection.fail(error.reason)
 
-def _check_name(connection: Connection, aircraft: str) -> None:
+
+def check_name(connection: Connection, aircraft: str) -> None:
     """Raise HelloError if the certificate is of another aircraft, or of a ground."""
     if connection.peer_name not in ("", aircraft):
         raise HelloError(NAME, f"the certificate names {connection.peer_name}, not {aircraft}")

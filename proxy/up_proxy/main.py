@@ -42,8 +42,13 @@ def run(reactor: Any, config: ProxyConfig, folder: Path = Path()) -> int:
     """Serve until SIGTERM, SIGINT or SIGHUP; return the exit status."""
     from up_proxy.proxy import Proxy
 
-    proxy = Proxy(reactor, config, folder)
+    # Before the ports are open: whoever sees them may end this program.
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        # 'nohup' ignores SIGHUP; a shell's background job ignores SIGINT, which still ends it.
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, lambda *_: reactor.callFromThread(reactor.stop))
     try:
+        proxy = Proxy(reactor, config, folder)
         proxy.start()
     except StartError as error:
         sys.stderr.write(f"{program_error('up-proxy', str(error), error.code)}\n")
@@ -59,18 +64,20 @@ def run(reactor: Any, config: ProxyConfig, folder: Path = Path()) -> int:
         notifier.ready(f"relaying, {ports}")
         pinger.start()
 
-    def on_stop() -> None:
+    def on_stop() -> object:
         notifier.stopping()
         pinger.stop()
-        proxy.stop()
+        stopping = proxy.stop()
+        if stopping is None:
+            on_stopped(None)
+            return None
+        return stopping.addCallback(on_stopped)
+
+    def on_stopped(_: object) -> None:
         _log.info("stopped", code="stopped")
 
     reactor.callWhenRunning(on_running)
     reactor.addSystemEventTrigger("before", "shutdown", on_stop)
-    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-        # 'nohup' ignores SIGHUP; a shell's background job ignores SIGINT, which still ends it.
-        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, lambda *_: reactor.callFromThread(reactor.stop))
     reactor.run(installSignalHandlers=False)
     return 0
 

@@ -18,7 +18,11 @@ Metric = tuple[str, str, str, Samples]
 
 
 def render(
-    acceptors: Sequence[Acceptor], registry: AircraftRegistry, tick: LoopTick, now_s: float
+    acceptors: Sequence[Acceptor],
+    registry: AircraftRegistry,
+    tick: LoopTick,
+    now_s: float,
+    more: Iterable[Metric] = (),
 ) -> str:
     """Return the page: ports, sums since the start, connected aircraft, process."""
     present = registry.aircraft()
@@ -87,6 +91,7 @@ def render(
             ),
             *((f"up_proxy_{name}", "gauge", text, values) for name, text, values in gauges),
             resident,
+            *more,
         ]
     )
 

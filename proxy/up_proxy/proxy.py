@@ -1,9 +1,10 @@
 """The Ground Station Proxy as a whole: two ports, the aircraft between them, its tick."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from twisted.internet.error import CannotListenError
+from twisted.internet.task import deferLater
 
 from up.log import UpLogger
 from up.protocols.proxy_lines import Side
@@ -11,7 +12,9 @@ from up.system.metrics_page import serve_metrics
 from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
 from up.tls.files import TLSFiles
+from up_cluster.config import ClusterError
 from up_proxy.acceptor import Acceptor
+from up_proxy.aircraft import AircraftSession
 from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
 from up_proxy.listener import StartError, cannot_listen, listen
@@ -19,6 +22,11 @@ from up_proxy.loop_tick import LoopTick
 from up_proxy.metrics import render
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
+
+if TYPE_CHECKING:
+    from twisted.internet.defer import Deferred
+
+    from up_proxy.cluster.node import ClusterNode
 
 _log = UpLogger.get_logger("proxy")
 
@@ -32,7 +40,12 @@ class Proxy:
         self._tls = TLSFiles(folder / config.tls.folder) if config.tls.folder else None
         self._poller = Poller(reactor, reactor.seconds)
         limits = config.limits
-        self.registry = AircraftRegistry(reactor, self._poller, limits.aircraft, limits.listeners)
+        self._are_ports_closed = False
+        self._node = self._new_node(folder) if config.cluster.servers else None
+        make = AircraftSession if self._node is None else self._node.new_session
+        self.registry = AircraftRegistry(
+            reactor, self._poller, limits.aircraft, limits.listeners, make
+        )
         self._acceptors: list[Acceptor] = []
         self._metrics_port: Any = None
         self._loop_tick = LoopTick(reactor, self._tick)
@@ -89,16 +102,44 @@ class Proxy:
             )
         self._poller.start()
         self._loop_tick.start()
+        if self._node is not None:
+            self._node.start()
 
-    def stop(self) -> None:
+    def stop(self) -> "Deferred[None] | None":
+        """Close everything; a node of a cluster then gives up its aircraft to the others."""
         self._loop_tick.stop()
         if self._metrics_port is not None:
             self._metrics_port.stopListening()
-        for acceptor in self._acceptors:
-            acceptor.close()
+        self._close_acceptors()
         self._poller.reap()
+        if self._node is not None:
+            # The poller may be what calls back: it is closed in the next round.
+            stopped = self._node.stop()
+            return stopped.addCallback(lambda _: deferLater(self._reactor, 0, self._finish))
+        self._finish()
+        return None
+
+    def _close_acceptors(self) -> None:
+        if not self._are_ports_closed:
+            for acceptor in self._acceptors:
+                acceptor.close()
+        self._are_ports_closed = True
+
+    def _finish(self) -> None:
         self._poller.stop()
         self.registry.stop()
+
+    def _new_node(self, folder: Path) -> "ClusterNode":
+        from up_proxy.cluster.node import ClusterNode
+
+        try:
+            config = self._config
+            listeners = config.limits.listeners
+            node = ClusterNode(self._reactor, self._poller, config.cluster, folder, listeners)
+        except (ClusterError, TLSError) as error:
+            raise StartError(error.code, f"{error} (proxy.yml: cluster)", status=2) from None
+        node.on_drain = self._close_acceptors
+        return node
 
     def _serve_metrics(self, port: int) -> Any:
         try:
@@ -107,10 +148,14 @@ class Proxy:
             raise cannot_listen("metrics port", port, error.socketError) from None
 
     def is_healthy(self) -> bool:
+        if self._are_ports_closed:
+            return True  # by a drain: a restart would serve again
         return bool(self._acceptors) and all(acceptor.is_open() for acceptor in self._acceptors)
 
     def page(self) -> str:
-        return render(self._acceptors, self.registry, self._loop_tick, self._poller.tick())
+        now_s = self._poller.tick()
+        more = () if self._node is None else self._node.metrics()
+        return render(self._acceptors, self.registry, self._loop_tick, now_s, more)
 
     @property
     def _is_plain(self) -> bool:
@@ -122,7 +167,10 @@ class Proxy:
             tls.server()
         label = f"{side.value} port"
         listener = listen(label, config.address, port, config.limits.user_timeout_ms)
-        handshake = Handshake(side, self.registry, self._poller)
+        if self._node is None:
+            handshake = Handshake(side, self.registry, self._poller)
+        else:
+            handshake = self._node.new_handshake(side, self.registry)
         return Acceptor(listener, handshake, self._poller, self._reactor, side, config, tls)
 
     def _tick(self) -> None:

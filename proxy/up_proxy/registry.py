@@ -1,5 +1,6 @@
 """All aircraft with connections, by name; ``handshake.py`` admits a second one of a name."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from up.log import Limited
@@ -33,9 +34,17 @@ class Totals:
 class AircraftRegistry:
     """Creates an aircraft when its first connection names it, removes it after its last one."""
 
-    def __init__(self, clock: Clock, poller: Poller, max_aircraft: int, max_listeners: int) -> None:
+    def __init__(
+        self,
+        clock: Clock,
+        poller: Poller,
+        max_aircraft: int,
+        max_listeners: int,
+        make: Callable[[str, Poller, Limited], AircraftSession] = AircraftSession,
+    ) -> None:
         self._poller = poller
         self._log = Limited(clock, LOG_INTERVAL_S, MAX_LOG_KEYS)
+        self._make = make
         self._max_aircraft = max_aircraft
         self._max_listeners = max_listeners
         self._sessions: dict[str, AircraftSession] = {}
@@ -64,7 +73,7 @@ class AircraftRegistry:
         if session is None:
             if len(self._sessions) >= self._max_aircraft:
                 raise HelloError(FULL, "too many aircraft on this proxy")
-            session = self._sessions[name] = AircraftSession(name, self._poller, self._log)
+            session = self._sessions[name] = self._make(name, self._poller, self._log)
         return session
 
     def check_room(self, session: AircraftSession, token: str | None = None) -> None:
@@ -85,6 +94,7 @@ class AircraftRegistry:
             session.grounds.keep_paused_alive(now_s)
             session.sweep()
             if session.is_deserted(now_s):
+                session.close()
                 self._gone.add(session)
                 del self._sessions[name]
 

@@ -9,8 +9,8 @@ from twisted.logger import Logger
 from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.origin import Origin
+from up.flight_modes.declarations import AUTO
 
-AUTO = "AUTO"
 REQUEST_PERIOD_S = 5.0
 FAILSAFE_MODE = "RETURN"
 """The board's mode while it follows set-points in receiver failsafe."""

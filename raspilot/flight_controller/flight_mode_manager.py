@@ -11,7 +11,7 @@ from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
-from raspilot.flight_controller.board_authority import AUTO, BoardAuthority
+from raspilot.flight_controller.board_authority import BoardAuthority
 from raspilot.flight_controller.demand_converter import DemandConverter
 from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.flight_target import FlightTarget
@@ -29,7 +29,7 @@ from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_board import BaseBoard, ground_modes
 from up.flight_controller.base_flight_controller import BaseFlightController
-from up.flight_modes.declarations import auto_mode_problem
+from up.flight_modes.declarations import AUTO, auto_mode_problem
 from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
@@ -65,6 +65,7 @@ class FlightModeManager(BaseFlightController):
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
+    IS_SET_BY_GROUND: ClassVar[bool] = True
     WRITTEN_FILES = (MEMORY,)
     SELECTS_MODES: ClassVar[bool] = True
 
@@ -191,13 +192,14 @@ class FlightModeManager(BaseFlightController):
         # A phone's frame could carry a sequence too; only the board's is valid.
         if command.sequence is None or self._executor.origin.role is not Role.BOARD:
             return
-        navigation = self._navigation
+        estimate = self._estimate(MAX_DEAD_RECKONING_S)
+        navigation = None if estimate is None else self._navigation
         self.home.update(navigation, self.board.state)
         if navigation is not None and self._resumed_place is not None:
             self._target = target_of_place(self._resumed_place, navigation.frame)
             self._resumed_place = None
         if navigation is None:
-            navigation = self._estimate(MAX_DEAD_RECKONING_S)
+            navigation = estimate
         rx = self.rx.fresh(MAX_RX_AGE_S)
         now_s = reading.time_s
         situation = self._situation = FlightSituation(

@@ -37,6 +37,7 @@ class Failsafes(BasePeriodicModule):
     LOAD_ORDER: ClassVar[int] = 200
     PERIOD_S: ClassVar[float] = 0.2
     CONFIG = FAILSAFE
+    IS_SET_BY_GROUND: ClassVar[bool] = True
 
     flight = needs(FlightModeManager)
     plans = wants(Plans)

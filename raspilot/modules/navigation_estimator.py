@@ -9,6 +9,7 @@ from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.battery_sag import BatterySag
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
+from raspilot.navigation.fix_sources import FixSources
 from up.commands.airspeed_command import AirspeedCommand
 from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
@@ -18,6 +19,7 @@ from up.commands.servo_command import ServoCommand
 from up.commands.telemetry_schema import READINGS
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
+from up.log.limits import Once
 from up.needs import needs
 from up.providers.base_provider import BaseProvider, Reading
 from up.providers.source_arbiter import SourceArbiter
@@ -30,6 +32,9 @@ ASSUMED_AGE_S = 0.8
 """Age of a fix on arrival where its source does not measure it."""
 AIRSPEED_S = 1.0
 """How old the airspeed of a sensor may be before another one is followed."""
+BATTERY_S = 2.0
+"""The same of the flight battery's voltage."""
+MAX_SAID = 4
 LOWEST_US, RANGE_US = 1000, 1000
 UNKNOWN_HEADING_SD_DEG, UNKNOWN_WIND_SD_M_S, UNKNOWN_ALTITUDE_SD_M = 60.0, 4.0, 100.0
 MIN_COURSE_M_S = 1.0
@@ -60,6 +65,9 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._is_old = True
         self._motor_stopped = False
         self._throttle = 0.0
+        self._sources = FixSources()
+        self._doubted = 0
+        self._said = Once(MAX_SAID)
 
     def on_init(self) -> None:
         model = AirframeModel(self.context.config(NAVIGATION))
@@ -70,8 +78,11 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.location.subscribe(self._on_location)
         self.altitude.subscribe(self._on_altitude)
         self.heading.subscribe(self._on_heading)
+        self.location.is_doubted = self._is_doubted
         executor = self.up.command_executor
+        executor.register_command(LocationCommand, self._on_any_location)
         self._airspeeds = SourceArbiter(AIRSPEED_S, lambda _before, _source: None)
+        self._batteries = SourceArbiter(BATTERY_S, lambda _before, _source: None)
         executor.register_command(AirspeedCommand, self._on_airspeed)
         executor.register_command(ServoCommand, self._on_servos)
         executor.register_command(AccelerationCommand, self._on_acceleration)
@@ -88,22 +99,28 @@ class NavigationEstimator(BaseProvider[NavigationState]):
 
     @property
     def reading(self) -> Reading[NavigationState] | None:
-        state, taken_s = self.state, self.estimator.fix_time_s
-        fix = self.location.reading
+        taken_s, fix = self.estimator.fix_time_s, self.location.reading
+        state = None if taken_s is None else self.state
         if state is None or taken_s is None or fix is None:
             return None
         if self._reading is None or self._reading.value is not state:
             self._reading = Reading(state, fix.source, taken_s)
         return self._reading
 
+    def fresh(self, max_age_s: float) -> Reading[NavigationState] | None:
+        return None if self.reading is None else super().fresh(max_age_s)
+
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         estimator = self.estimator
         return {
             "navigation": self._navigation(),
-            "counters": {"navigation": estimator.rejected},
+            "counters": {"navigation": {**estimator.rejected, **self._doubts()}},
             **self._ages(),
         }
+
+    def _doubts(self) -> dict[str, int]:
+        return {"doubted": self._doubted} if self._doubted else {}
 
     def _navigation(self) -> dict[str, Any]:
         state = self.state
@@ -150,17 +167,25 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _on_location(self, reading: Reading[LocationCommand]) -> None:
         value, now_s = reading.value, reading.time_s
         self._is_old = True
-        age_s = ASSUMED_AGE_S if value.age_ms is None else value.age_ms / 1000
-        fix = Fix(
-            now_s - age_s,
-            value.latitude_deg,
-            value.longitude_deg,
-            value.altitude_m,
-            value.accuracy_m,
-            value.speed_m_s,
-            value.bearing_deg,
-        )
-        self.estimator.fix(fix, now_s)
+        self.estimator.fix(_fix_of(value, now_s), now_s)
+
+    def _on_any_location(self, command: LocationCommand) -> None:
+        """Compare the fix of every source, followed or not, with the estimate."""
+        now_s = self._seconds()
+        is_far = self.estimator.is_far(_fix_of(command, now_s))
+        if is_far is not None:
+            self._sources.note(self.up.command_executor.origin.link, is_far, now_s)
+
+    def _is_doubted(self, source: str) -> bool:
+        is_doubted = self._sources.is_doubted(source, self._seconds())
+        self._doubted += is_doubted
+        if is_doubted and self._said.first(source):
+            self.log.warn(
+                "the fixes of {source} are left out: another source agrees with the estimate",
+                source=source,
+                code="source_doubted",
+            )
+        return is_doubted
 
     def _on_altitude(self, reading: Reading[float]) -> None:
         self._is_old = True
@@ -186,6 +211,9 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             self.estimator.vertical.hold(command.is_in_flight)
 
     def _on_flight_battery(self, command: FlightBatteryCommand) -> None:
+        origin = self.up.command_executor.origin
+        if not self._batteries.accepts(origin.link, origin.priority, self._seconds()):
+            return
         if self.estimator.is_in_flight:
             self._sag.measure(command.voltage_v, self._throttle)
         else:
@@ -201,3 +229,16 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         if is_stopped and not self._motor_stopped:
             self.log.warn("the motor gives no thrust at the present throttle", code="motor_stopped")
         self._motor_stopped = is_stopped
+
+
+def _fix_of(command: LocationCommand, now_s: float) -> Fix:
+    age_s = ASSUMED_AGE_S if command.age_ms is None else command.age_ms / 1000
+    return Fix(
+        now_s - age_s,
+        command.latitude_deg,
+        command.longitude_deg,
+        command.altitude_m,
+        command.accuracy_m,
+        command.speed_m_s,
+        command.bearing_deg,
+    )

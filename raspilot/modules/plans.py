@@ -59,6 +59,7 @@ class Plans(BasePeriodicModule):
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     CONFIG = MISSION_FILE
+    IS_SET_BY_GROUND: ClassVar[bool] = True
 
     flight = needs(FlightModeManager)
     mission_control = wants(BaseMissionControlProvider)

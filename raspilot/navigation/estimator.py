@@ -8,7 +8,7 @@ import math
 from raspilot.navigation.air_path import MAX_GAP_S, AirPath, AirPoint, multiplied
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.airspeed_model import AirspeedModel
-from raspilot.navigation.fix_gate import Fix, FixGate
+from raspilot.navigation.fix_gate import Fix, FixGate, is_far
 from raspilot.navigation.flight_watch import FlightWatch
 from raspilot.navigation.horizontal_filter import (
     AIRSPEED_R,
@@ -212,6 +212,17 @@ class Estimator:
             self.vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
         return True
 
+    def is_far(self, fix: Fix) -> bool | None:
+        """Return whether a fix of any source is a jump from the estimate; None: not known."""
+        at, fixed = self._path.at(fix.time_s), self._fixed
+        if at is None or fixed is None or not (self.is_in_flight and fix.is_valid):
+            return None
+        assert self._frame is not None and self._horizontal is not None
+        point = self._frame.point(fix.latitude_deg, fix.longitude_deg)
+        expected = self._position_at(at)
+        off_m = math.hypot(point.north_m - expected.north_m, point.east_m - expected.east_m)
+        return is_far(off_m, math.sqrt(self._horizontal.position_variance(fixed, at)))
+
     def state(self, now_s: float | None = None) -> NavigationState | None:
         """Return the estimate at the newest orientation, or ``now_s``; None before a fix."""
         frame, filter_, then = self._frame, self._horizontal, self._fixed
@@ -232,7 +243,7 @@ class Estimator:
             position, velocity = self._position_at(now), self._velocity_at(now)
             position_variance = filter_.position_variance(then, now)
             airspeed_sd = speed * math.sqrt(along + MIN_AIRSPEED_SD**2)
-            climb = vertical.climb_error_m_s + self._model.climb_m_s
+            climb = vertical.climb_error_at(now.time_s) + self._model.climb_m_s
         else:
             position, velocity = Point(x[0], x[1]), Point(*self._velocity_m_s)
             age_s = now.time_s - then.time_s

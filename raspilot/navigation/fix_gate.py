@@ -55,6 +55,11 @@ class Fix:
         return self.speed_m_s * math.cos(course), self.speed_m_s * math.sin(course)
 
 
+def is_far(off_m: float, sd_m: float) -> bool:
+    """Return whether this distance from a place of this standard deviation is a jump."""
+    return off_m > JUMP_M + JUMP_SIGMA * sd_m
+
+
 class FixGate:
     """Rejects impossible fixes and counts them by reason in ``rejected``.
 
@@ -98,7 +103,7 @@ class FixGate:
     def judge(self, fix: Fix, north_m: float, east_m: float, sd_m: float, in_flight: bool) -> str:
         """Return ``accepted``, ``jump`` or ``moved`` for a fix this far from the expected place."""
         off_m = math.hypot(north_m, east_m)
-        if off_m <= JUMP_M + JUMP_SIGMA * sd_m:
+        if not is_far(off_m, sd_m):
             self._accept(fix)
             return "accepted"
         spread_m = math.hypot(north_m - self._proof_m[0], east_m - self._proof_m[1])

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
-FIX_R_M, BAROMETER_R_M = 2.0, 0.7
+FIX_R_M, BAROMETER_R_M = 1.3, 0.7
+"""White noise of one measurement; how far a receiver's altitude wanders is ``ALTITUDE_Q_M``."""
 WITH_BAROMETER_R_M = 22.0
 """Beside a barometer the fixes only show the mean: their wander counts as white noise."""
 BAROMETER_LOST_S = 5.0
-ALTITUDE_Q_M, CLIMB_Q_M_S = 1.1, 0.3
+ALTITUDE_Q_M, CLIMB_Q_M_S = 1.1, 0.4
 """Standard deviations after a second: how fast a receiver's altitude wanders, the climb error's."""
 WITH_BAROMETER_Q_M = 0.1
 MEAN_Q_M = 0.4
@@ -16,8 +17,10 @@ MEAN_Q_M = 0.4
 WEATHER_Q_M = 0.03
 """Of the barometer's offset: fixes move a held altitude slower than the weather does."""
 ALTITUDE_SD_M, CLIMB_SD_M_S, OFFSET_SD_M, RECEIVER_SD_M = 1000.0, 1.0, 200.0, 3.0
-CLIMB_TAU_S = 20.0
-"""The climb error returns to zero with this time constant where nothing measures it."""
+CLIMB_TAU_S = 10.0
+"""The climb error, mostly rising and sinking air, returns to zero with this time constant."""
+RISING_M_S = 0.75
+"""Standard deviation of what slowly rising air adds to the climb until the next measurement."""
 LIMIT_SIGMA = 5.0
 MAX_VARIANCE = 1e6
 JUMP_M, JUMP_M_S = 5.0, 15.0
@@ -58,24 +61,24 @@ class VerticalFilter:
         return self._x[ALTITUDE]
 
     @property
-    def climb_error_m_s(self) -> float:
-        return self._x[CLIMB]
-
-    @property
     def held_offset_m(self) -> float | None:
         """Return the barometer's altitude less this one, once that is held."""
         return self._x[OFFSET] if self._is_pinned else None
 
     def altitude_at(self, time_s: float, climb_m: float) -> float:
-        passed_s = 0.0 if self._time_s is None else time_s - self._time_s
-        return self.altitude_m + climb_m - self._climb_m + self.climb_error_m_s * passed_s
+        error_m = self._x[CLIMB] * _reach_s(self._passed_s(time_s))
+        return self.altitude_m + climb_m - self._climb_m + error_m
+
+    def climb_error_at(self, time_s: float) -> float:
+        """Return what the modelled climb lacks, m/s."""
+        return self._x[CLIMB] * math.exp(-self._passed_s(time_s) / CLIMB_TAU_S)
 
     def sd_at(self, time_s: float) -> float:
         """Return that of the altitude; while it is held, without its constant error."""
-        dt = 0.0 if self._time_s is None else max(0.0, time_s - self._time_s)
-        p = self._p
-        total = p[0][0] + 2.0 * dt * p[0][1] + dt * dt * p[1][1]
-        total += ALTITUDE_Q_M**2 * dt + CLIMB_Q_M_S**2 * dt * dt * dt / 3.0
+        dt = max(0.0, self._passed_s(time_s))
+        p, reach_s = self._p, _reach_s(dt)
+        total = p[0][0] + 2.0 * reach_s * p[0][1] + reach_s * reach_s * p[1][1]
+        total += ALTITUDE_Q_M**2 * dt + _climbed_variance(dt) + (RISING_M_S * dt) ** 2
         return math.sqrt(min(max(total, 0.0), MAX_VARIANCE))
 
     def hold(self, is_held: bool) -> None:
@@ -111,7 +114,7 @@ class VerticalFilter:
         elif self._has_barometer(taken_s):
             sd_m = WITH_BAROMETER_R_M
             error = self._agreed(taken_s, error)
-        self._correct((1.0, -lag_s, 0.0, 1.0), error, sd_m)
+        self._correct((1.0, _reach_s(-lag_s), 0.0, 1.0), error, sd_m)
 
     def fuse_barometer(
         self, time_s: float, climb_m: float, altitude_m: float, source: str = ""
@@ -177,6 +180,9 @@ class VerticalFilter:
         self.jumps += 1
         return error
 
+    def _passed_s(self, time_s: float) -> float:
+        return 0.0 if self._time_s is None else time_s - self._time_s
+
     def _has_barometer(self, time_s: float) -> bool:
         return time_s - self._barometer_s < BAROMETER_LOST_S
 
@@ -189,13 +195,13 @@ class VerticalFilter:
             return
         self._x[ALTITUDE] = self.altitude_at(time_s, climb_m)
         self._time_s, self._climb_m = time_s, climb_m
-        keep = max(0.0, 1.0 - dt / CLIMB_TAU_S)
+        keep, reach_s = math.exp(-dt / CLIMB_TAU_S), _reach_s(dt)
         self._x[CLIMB] *= keep
         p = self._p
         for k in range(4):
-            p[0][k] += dt * p[1][k]
+            p[0][k] += reach_s * p[1][k]
         for row in p:
-            row[0] += dt * row[1]
+            row[0] += reach_s * row[1]
         for k in range(4):
             p[1][k] *= keep
         for row in p:
@@ -205,8 +211,10 @@ class VerticalFilter:
             noise = WITH_BAROMETER_Q_M
             if not self._is_pinned:
                 self._widen((1.0, 0.0, -1.0, 0.0), MEAN_Q_M**2 * dt)
-        p[0][0] = min(p[0][0] + noise**2 * dt + CLIMB_Q_M_S**2 * dt**3 / 3.0, MAX_VARIANCE)
-        p[1][1] += CLIMB_Q_M_S**2 * dt
+        p[0][0] = min(p[0][0] + noise**2 * dt + _climbed_variance(dt), MAX_VARIANCE)
+        p[0][1] += 0.5 * CLIMB_Q_M_S**2 * reach_s * reach_s
+        p[1][0] = p[0][1]
+        p[1][1] += 0.5 * CLIMB_Q_M_S**2 * CLIMB_TAU_S * (1.0 - keep * keep)
         p[2][2] = min(p[2][2] + WEATHER_Q_M**2 * dt, MAX_VARIANCE)
 
     def _correct(self, h: tuple[float, ...], innovation: float, sd: float) -> None:
@@ -219,3 +227,14 @@ class VerticalFilter:
             part = each / variance
             for k in range(4):
                 row[k] -= part * column[k]
+
+
+def _reach_s(passed_s: float) -> float:
+    """Return how far a climb error of 1 m/s leads until it has returned to zero."""
+    return CLIMB_TAU_S * (1.0 - math.exp(-passed_s / CLIMB_TAU_S))
+
+
+def _climbed_variance(dt: float) -> float:
+    """Return the altitude's (m squared), of the climb error's noise in this time."""
+    reach_s = _reach_s(dt)
+    return (CLIMB_Q_M_S * CLIMB_TAU_S) ** 2 * (dt - reach_s - 0.5 * reach_s**2 / CLIMB_TAU_S)

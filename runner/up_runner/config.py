@@ -11,13 +11,15 @@ from up.config import ConfigFile, items, key, mapping, section
 from up.config.schema import ListOf
 from up.fields import Constraint
 from up.system.figures import PACKAGE_MISSING, is_installed
-from up_runner.request import NAME
+from up_cluster.config import ClusterConfig
+from up_runner.request import LABEL, MAX_LABELS, NAME
 
 Security = Literal["auto", "off", "accept", "require"]
 FILE_NAME = Constraint(str, max_length=64)
 KEY_NAME = Constraint(str, max_length=64)
 VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\*?", re.ASCII)
 PLAIN_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.yml", re.ASCII)
+LEARNED_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.(yml|json)", re.ASCII)
 NEVER_SETTABLE = frozenset(
     f"{name}.yml"
     for name in ("disabled_modules", "external_modules", "keys", "registered_modules", "runner")
@@ -138,6 +140,39 @@ class KeyQuota:
 
 
 @dataclass(frozen=True, slots=True)
+class PoolConfig(ClusterConfig):
+    """The NATS servers over which several runners act as one."""
+
+    address: str = key(
+        "",
+        "Name or address of this host for phones: the answers name it. Required with servers.",
+        max_length=255,
+    )
+    labels: tuple[str, ...] = items(
+        Constraint(str, max_length=32),
+        "What a request may require of the host: words of A-Z a-z 0-9 _ . -",
+        max_length=MAX_LABELS,
+    )
+    lease_s: int = key(
+        10,
+        "Time to live of an instance's lease. Shorter than 10 s, every death of a NATS server "
+        "restarts instances; longer, those of a dead host start later elsewhere.",
+        name="lease",
+        unit="s",
+        minimum=3,
+        maximum=60,
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        yield from ClusterConfig.problems(self)
+        if self.servers and not self.address:
+            yield "address", "must name this host for phones"
+        for label in self.labels:
+            if not LABEL.fullmatch(label):
+                yield "labels", f"{label!r} is not a word of A-Z a-z 0-9 _ . -"
+
+
+@dataclass(frozen=True, slots=True)
 class RunnerConfig:
     """The runner: spawns a Raspilot when a phone requests it, and supervises it."""
 
@@ -185,13 +220,14 @@ class RunnerConfig:
     )
     application_root: str = key(
         "",
-        "Folder of the application. Empty: the one that contains this program.",
+        "Folder of the application. Empty: that of the installed Raspilot.",
         name="application root",
         max_length=4096,
     )
     script_path: str = key(
-        "main.py",
-        "The program to run, relative to the application root.",
+        "",
+        "The program to run, relative to the application root. Empty: main.py, or, with an empty "
+        "application root, the installed Raspilot (python -m raspilot).",
         name="script path",
         max_length=4096,
     )
@@ -274,6 +310,7 @@ class RunnerConfig:
         name="stop instances on exit",
     )
     proxy: ProxyAddress = section(ProxyAddress)
+    pool: PoolConfig = section(PoolConfig)
     autostart: Autostart = section(Autostart)
     restarts: Restarts = section(Restarts)
     logs: Logs = section(Logs)
@@ -308,7 +345,7 @@ class RunnerConfig:
         FILE_NAME,
         "Files that an instance writes. They are kept from run to run while the profile is the "
         "same.",
-        default=("pids.yml",),
+        default=("pids.yml", "flight_state.yml", "mission.json", "fence.json"),
         name="learned files",
         max_length=32,
     )
@@ -317,14 +354,20 @@ class RunnerConfig:
         """Yield problems between keys: the attribute, the sentence and, of some, its code."""
         if self.metrics_port is not None and not is_installed():
             yield "metrics_port", *PACKAGE_MISSING
+        if self.pool.servers and self.mode != "black box":
+            yield "pool", "needs mode: black box; an instance with hardware belongs to its host"
+        if self.pool.servers and self.autostart.aircraft:
+            yield "autostart", "cannot be used in a pool; let the phone request its aircraft"
         for attribute, names in (
             ("settable", self.settable),
             ("dynamic_ports", self.dynamic_ports),
             ("persisted_files", self.persisted_files),
         ):
+            is_learned = attribute == "persisted_files"
             for name in names:
-                if not PLAIN_FILE.fullmatch(name):
-                    yield attribute, f"{name!r} is not the name of a YAML file"
+                if not (LEARNED_FILE if is_learned else PLAIN_FILE).fullmatch(name):
+                    kind = "YAML or JSON" if is_learned else "YAML"
+                    yield attribute, f"{name!r} is not the name of a {kind} file"
         for name, keys in self.settable.items():
             if name in NEVER_SETTABLE:
                 yield "settable", f"a request may never set anything of {name}"

@@ -112,6 +112,15 @@ class Instance:
             self._reason = self.last_end = reason
             self._feed(Input.STOP)
 
+    def kill(self, reason: Problem) -> None:
+        """End the process without any delay; a pending restart does not happen."""
+        if self.state is State.WAITING:
+            self.stop(reason)
+        elif (self.state, Input.KILL) in TRANSITIONS:
+            self._log.error("{reason}; it is killed", code=reason.code, reason=str(reason))
+            self._reason = self.last_end = reason
+            self._feed(Input.KILL)
+
     def detach(self) -> None:
         self._feed(Input.DETACH)
 
@@ -171,7 +180,8 @@ class Instance:
 
     def _end(self, problem: Problem) -> None:
         self.last_end = problem
-        self._log.info("ended: {error}", code="ended", cause=problem.code, error=str(problem))
+        text, cause = "ended: {error}", problem.code
+        self._log.info(text, code="ended", aircraft=self.name, cause=cause, error=str(problem))
         self._feed(Input.END)
 
     def _notify(self) -> None:

@@ -16,7 +16,7 @@ from up_runner.request import Request, Scalar
 from up_runner.response import Problem
 
 FOLDER = "config"
-_PROFILE_NOTE = "profile"
+PROFILE_NOTE = "profile"
 _NOT_FOR_INSTANCES = frozenset(("runner.yml", "proxy.yml", KEYS.filename))
 _HEAD = "# Put together by the runner; edit the base configuration or the profile instead.\n"
 
@@ -87,7 +87,7 @@ class InstanceConfig:
             write_atomically(target / name, self._content(name, sources, request))
         self._remove_others(target, names, persisted)
         self._link_keys(target, sources)
-        write_atomically(folder / _PROFILE_NOTE, f"{request.profile or ''}\n".encode())
+        write_atomically(folder / PROFILE_NOTE, f"{request.profile or ''}\n".encode())
         return target
 
     def _content(self, name: str, sources: Sequence[Path], request: Request) -> bytes:
@@ -120,7 +120,7 @@ class InstanceConfig:
 
     def _same_profile(self, request: Request, folder: Path) -> bool:
         try:
-            note = (folder / _PROFILE_NOTE).read_text("utf-8")
+            note = (folder / PROFILE_NOTE).read_text("utf-8")
         except (OSError, UnicodeDecodeError):
             return False
         return note == f"{request.profile or ''}\n"

@@ -14,7 +14,7 @@ from twisted.internet.threads import deferToThreadPool
 from twisted.logger import Logger
 
 from up_runner import instance_state
-from up_runner.instance_config import InstanceConfig
+from up_runner.instance_config import ConfigurationRefused, InstanceConfig
 from up_runner.instance_state import InstanceState
 from up_runner.listening_ports import listening_ports
 from up_runner.log_keeper import LogKeeper
@@ -28,10 +28,13 @@ NOTIFY = "notify"
 
 @dataclass(frozen=True, slots=True)
 class Application:
-    """The command: interpreter, script, working folder, mode; `watchdog_s` None: no watchdog."""
+    """The command: interpreter, script, working folder, mode; `watchdog_s` None: no watchdog.
+
+    Without a script it is the installed Raspilot.
+    """
 
     python: Path
-    script: Path
+    script: Path | None
     root: Path
     mode: str
     watchdog_s: float | None
@@ -59,6 +62,8 @@ class InstanceHost:
         self.folder = folder
         self.logs = logs
         self.on_change: Callable[[str], None] = lambda name: None
+        self.permit: Callable[[str], Mapping[str, str]] = lambda name: {}
+        """Returns more variables for a start, or raises ConfigurationRefused."""
         self._application = application
         self._config = config
         self._environ = dict(environ)
@@ -84,6 +89,11 @@ class InstanceHost:
     def spawn(self, name: str, config: Path, log: int) -> Process:
         """Start the application and close the log's descriptor; raises OSError."""
         application = self._application
+        try:
+            permitted = self.permit(name)
+        except ConfigurationRefused:
+            os.close(log)
+            raise
         environ = dict(
             self._environ,
             NOTIFY_SOCKET=str(self._notify_path(name)),
@@ -91,15 +101,18 @@ class InstanceHost:
             UP_INSTANCE=name,
             UP_MODE=application.mode,
             PYTHONUNBUFFERED="1",
+            **permitted,
         )
         if application.watchdog_s is not None:
             environ["WATCHDOG_USEC"] = str(round(application.watchdog_s * 1e6))
         try:
-            if not application.script.is_file():
-                raise FileNotFoundError(f"no such script: {application.script}")
+            script = application.script
+            if script is not None and not script.is_file():
+                raise FileNotFoundError(f"no such script: {script}")
+            program = ["-m", "raspilot"] if script is None else [str(script)]
             return Process.spawn(
                 self.reactor,
-                [str(application.python), str(application.script), "--config", str(config)],
+                [str(application.python), *program, "--config", str(config)],
                 cwd=application.root,
                 environ=environ,
                 log=log,

@@ -43,13 +43,7 @@ class InstanceState:
         who = self.identity
         return {
             "version": _VERSION,
-            "request": {
-                "aircraft": self.request.aircraft,
-                "profile": self.request.profile,
-                "configuration": {
-                    file: dict(keys) for file, keys in self.request.configuration.items()
-                },
-            },
+            "request": self.request.as_json(),
             "process": who and [who.pid, who.start_ticks, who.boot_id],
             "key": self.request.key,
             "keep": self.keep,

@@ -42,6 +42,8 @@ class Instances:
         self._limit = limit
         self._starts = starts
         self._on_change = on_change
+        self.on_end: Callable[[Instance], object] = lambda instance: None
+        """Called with each instance that has ended for good."""
         self._instances: dict[str, Instance] = {}
         self._maintenance = LogMaintenance(host, kept, lambda: list(self._instances))
         self._closed = False
@@ -114,6 +116,14 @@ class Instances:
         problem = Problem(state.name.lower(), f"Raspilot is {state.value}")
         return instance.response(spawned=False, error=problem)
 
+    @property
+    def free(self) -> int:
+        """Return how many more instances may run."""
+        return 0 if self._closed else max(0, self._limit - len(self._instances))
+
+    def get(self, name: str) -> Instance | None:
+        return self._instances.get(name)
+
     def stop_all(self) -> Deferred[Any]:
         """Stop every instance and accept no new one; fires when all have ended."""
         self._closed = True
@@ -159,6 +169,7 @@ class Instances:
         instance = self._instances.get(name)
         if instance is not None and instance.state is State.ENDED:
             del self._instances[name]
+            self.on_end(instance)
             if not self._closed:
                 self._maintenance.prune()
         self._on_change()

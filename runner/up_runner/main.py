@@ -38,6 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     use_monotonic_time(reactor)
     runner = Runner(reactor, config, folder)
+    _end_by_signals(reactor)
     try:
         runner.start()
     except CannotStart as error:
@@ -47,10 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _serve(reactor: Any, runner: Any) -> None:
-    """Run until a signal; a second one does not wait for the instances."""
-    from twisted.internet.defer import Deferred
-
+def _end_by_signals(reactor: Any) -> None:
+    """End by a signal; a second one does not wait for the instances. Before the port is open."""
     signals: list[int] = []
 
     def on_signal(number: int, frame: object) -> None:
@@ -61,6 +60,12 @@ def _serve(reactor: Any, runner: Any) -> None:
 
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, on_signal)
+
+
+def _serve(reactor: Any, runner: Any) -> None:
+    """Run until a signal."""
+    from twisted.internet.defer import Deferred
+
     reactor.addSystemEventTrigger(
         "before", "shutdown", lambda: Deferred.fromCoroutine(runner.stop())
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +17,8 @@ class Paths:
     """The runner's folders and programs, all absolute."""
 
     root: Path
-    script: Path
+    script: Path | None
+    """None: the module ``raspilot``."""
     python: Path
     base: Path
     profiles: Path
@@ -34,7 +36,9 @@ class Paths:
         run = Path(config.run_folder or default_run_folder(environ, uid)).absolute()
         return cls(
             root=root,
-            script=root / config.script_path,
+            script=root / (config.script_path or "main.py")
+            if config.script_path or config.application_root
+            else None,
             # Not resolved: the symbolic link is what makes it a virtual environment's interpreter.
             python=Path(config.python or sys.executable).absolute(),
             base=_in(config_folder, config.instance_config, "blackbox" if black_box else "."),
@@ -46,9 +50,10 @@ class Paths:
 
 
 def own_root() -> Path:
-    """Return the folder of this package's repository, or the working folder without one."""
-    repository = Path(__file__).resolve().parents[2]
-    return repository if (repository / "main.py").is_file() else Path.cwd()
+    """Return the source tree that Raspilot runs from, or the working folder without one."""
+    spec = importlib.util.find_spec("raspilot")
+    tree = Path(spec.origin).resolve().parents[1] if spec and spec.origin else Path.cwd()
+    return tree if (tree / "main.py").is_file() else Path.cwd()
 
 
 def _in(folder: Path, wanted: str, default: str) -> Path:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, NoReturn
@@ -16,6 +17,8 @@ MAX_LINE = 64 * 1024
 DEFAULT_NAME = "default"
 """The instance that all nameless clients share."""
 NAME = AIRCRAFT_NAME
+LABEL = re.compile(r"[A-Za-z0-9_.-]{1,32}", re.ASCII)
+MAX_LABELS = 16
 _MAX_TEXT = 256
 _MAX_WORD = 64
 _MAX_SHOWN = 100
@@ -32,14 +35,15 @@ class MalformedRequest(ValueError):  # noqa: N818 - it names the input, not a fa
 class Request:
     """A request: the aircraft, the profile and settings, and whether to start or only to query.
 
-    `body` is that of a protected line, which is nothing else; `key` the id of the key that signed
-    the request.
+    `labels` must all be among those of the host. `body` is that of a protected line, which is
+    nothing else; `key` the id of the key that signed the request.
     """
 
     aircraft: str = DEFAULT_NAME
     profile: str | None = None
     configuration: Configuration = field(default_factory=dict)
     action: Literal["spawn", "status"] = "spawn"
+    labels: tuple[str, ...] = ()
     body: bytes = b""
     key: str = ""
 
@@ -49,6 +53,16 @@ class Request:
 
     def same_configuration(self, other: Request) -> bool:
         return self.profile == other.profile and self.configuration == other.configuration
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the fields that `parse` reads; the key is not among them."""
+        return {
+            "aircraft": self.aircraft,
+            "profile": self.profile,
+            "configuration": {file: dict(keys) for file, keys in self.configuration.items()},
+            "action": self.action,
+            "labels": list(self.labels),
+        }
 
 
 def parse(line: bytes) -> Request:
@@ -76,6 +90,7 @@ def parse(line: bytes) -> Request:
         profile=_name(found, "profile"),
         configuration=_configuration(found.get("configuration")),
         action="status" if action == "status" else "spawn",
+        labels=_labels(found.get("labels")),
     )
 
 
@@ -112,6 +127,17 @@ def _name(found: Mapping[str, Any], key: str) -> str | None:
     if not isinstance(value, str) or not NAME.fullmatch(value):
         raise MalformedRequest(f"{key} must be {AIRCRAFT_NAME_RULE}")
     return value
+
+
+def _labels(value: Any) -> tuple[str, ...]:
+    if value is None:
+        return ()
+    are_words = isinstance(value, list) and all(
+        isinstance(each, str) and LABEL.fullmatch(each) for each in value
+    )
+    if not are_words or len(value) > MAX_LABELS:
+        raise MalformedRequest(f"labels must be at most {MAX_LABELS} words of A-Z a-z 0-9 _ . -")
+    return tuple(value)
 
 
 def _configuration(value: Any) -> dict[str, dict[str, Scalar]]:

@@ -30,7 +30,7 @@ class Response:
     """The state of one instance at the moment of the response.
 
     `spawned` is true only if this request started the running process. `pid`, `ports`: None without
-    a process.
+    a process. `host`: where a pool runs the instance, empty without a pool.
     """
 
     instance: str | None
@@ -38,6 +38,7 @@ class Response:
     ports: Mapping[str, int] | None = None
     spawned: bool = False
     error: Problem | None = None
+    host: str = ""
 
     @property
     def running(self) -> bool:
@@ -64,5 +65,6 @@ class Response:
             "ports": None if self.ports is None else dict(self.ports),
             "proxy": proxy,
             "code": self.error and self.error.code,
+            **({"host": self.host} if self.host else {}),
         }
         return json.dumps(response, ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"

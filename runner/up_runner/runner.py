@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from twisted.internet.defer import Deferred
+from twisted.internet.defer import Deferred, succeed
 from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import ServerFactory
 from twisted.logger import Logger
@@ -24,6 +25,7 @@ from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
 from up.tls.files import TLSFiles
 from up.tls.protocol import TLSServerFactory
+from up_cluster.config import ClusterError
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import Application, InstanceHost
@@ -36,8 +38,11 @@ from up_runner.policy import Policy, RestartPolicy
 from up_runner.request import Request
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
-from up_runner.response import Response
+from up_runner.response import Problem, Response
 from up_runner.run_folder import RunFolder, RunFolderError
+
+if TYPE_CHECKING:
+    from up_runner.pool.pool import Pool
 
 KILL_DELAY_S = 5.0
 LISTEN_BACKLOG = 1024
@@ -78,8 +83,9 @@ class Runner:
         self._gate = RequestGate(config.security, accepts_plain=is_safe)
         self._keys = KeyRing(reactor, self._config_folder, self._gate.use)
         quota = config.key_quota
+        self.instance_host = self._host(environ)
         self.instances = Instances(
-            self._host(environ),
+            self.instance_host,
             policy_of(config),
             limit=config.instances,
             kept=config.kept_instances,
@@ -95,6 +101,7 @@ class Runner:
             idle_s=config.connections.idle_s,
             gate=self._gate,
         )
+        self._pool: Pool | None = None
         self._port: Any = None
         self._metrics_port: Any = None
 
@@ -112,6 +119,12 @@ class Runner:
         except RunFolderError as error:
             raise CannotStart(error.code, str(error)) from None
         try:
+            if self._config.pool.servers:
+                self._pool = self._new_pool()
+        except CannotStart:
+            self._run_folder.release()
+            raise
+        try:
             self._port = self._reactor.listenTCP(
                 self._config.port,
                 factory,
@@ -128,6 +141,8 @@ class Runner:
         if self._config.metrics_port is not None:
             self._open_metrics(self._config.metrics_port)
         self.instances.open()
+        if self._pool is not None:
+            self._pool.start()
         self._log.info("listens on port {port}", code="port_open", port=self.port)
         self._notifier.ready(self.instances.summary())
         self._pinger.start()
@@ -147,6 +162,8 @@ class Runner:
                 text = "leaves its instances running: {all}"
                 self._log.info(text, code="leaving_instances", all=self.instances.summary())
             self.instances.close()
+            if self._pool is not None:
+                await self._pool.stop()
         if self._metrics_port is not None:
             await self._metrics_port.stopListening()
         self._pinger.stop()
@@ -155,7 +172,8 @@ class Runner:
 
     def _open_metrics(self, port: int) -> None:
         def page() -> str:
-            return text_of(figures_of(self.instances, self.server))
+            pool = () if self._pool is None else self._pool.figures()
+            return text_of([*figures_of(self.instances, self.server), *pool])
 
         try:
             self._metrics_port = serve_metrics(self._reactor, port, page)
@@ -166,6 +184,15 @@ class Runner:
             raise CannotStart("cannot_listen", text) from None
         port = self._metrics_port.getHost().port
         self._log.info("metrics page on port {port}", code="metrics_open", port=port)
+
+    def _new_pool(self) -> Pool:
+        from up_runner.pool.pool import Pool
+
+        host, folder = self.instance_host, self._config_folder
+        try:
+            return Pool(self._reactor, self._config, folder, self.instances, host)
+        except (ClusterError, TLSError) as fault:
+            raise CannotStart(fault.code, f"{fault} (runner.yml: pool)") from None
 
     def _read_keys(self) -> None:
         try:
@@ -236,7 +263,14 @@ class Runner:
                 "it runs as root, and so would every instance; start it as another user, or set "
                 "i_accept_root: true in runner.yml",
             )
-        if not self._paths.script.is_file():
+        if self._paths.script is None:
+            if find_spec("raspilot") is None and not self._config.python:
+                raise CannotStart(
+                    "no_script",
+                    "Raspilot is not installed for this Python; install it, or set application "
+                    "root in runner.yml",
+                )
+        elif not self._paths.script.is_file():
             raise CannotStart(
                 "no_script",
                 f"no such script: {self._paths.script}; "
@@ -268,6 +302,12 @@ class Runner:
         self._log.failure("a bug in the runner", failure, code="runner_bug")
 
     def _handle(self, request: Request) -> Deferred[Response]:
+        if self._pool is not None:
+            return Deferred.fromCoroutine(self._pool.handle(request))
+        missing = set(request.labels) - set(self._config.pool.labels)
+        if missing and request.action == "spawn":
+            problem = Problem("no_runner", f"this host lacks the labels {', '.join(missing)}")
+            return succeed(Response(request.aircraft, error=problem))
         if request.action == "status":
             response: Deferred[Response] = Deferred()
             response.callback(self.instances.status(request.aircraft))

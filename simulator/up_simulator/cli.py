@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from up.cli.cli_error import UsageError
-from up.cli.option_parser import OptionParser
+from up.cli.completion import Verb, verb_of
+from up.cli.option_parser import OptionParser, parser_in
 from up.config import ConfigErrors
 from up.errors import UserError
 from up.fields import suggestion
@@ -110,9 +111,20 @@ def _module(verb: str) -> Any:
         ) from error
 
 
+class _Parser(OptionParser):
+    """The parser of the program; each verb's module makes its own."""
+
+    def completion(self) -> Verb:
+        root = verb_of(self)
+        for name, (about, _) in VERBS.items():
+            with suppress(UsageError):
+                root.verbs[name] = verb_of(parser_in(_module(name).main), about)
+        return root
+
+
 def _parser() -> argparse.ArgumentParser:
     verbs = "\n".join(f"  {name:<9}{about}" for name, (about, _) in VERBS.items())
-    parser = OptionParser(
+    parser = _Parser(
         prog="up-sim",
         allow_abbrev=False,
         usage="up-sim VERB ...",

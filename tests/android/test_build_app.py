@@ -59,7 +59,7 @@ def test_it_is_signed_in_three_ways_and_told_with_its_size(built):
     _, said = built
     for scheme in ("v1 scheme", "v2 scheme", "v3 scheme"):
         assert any(scheme in line and line.endswith("true") for line in said.splitlines())
-    assert "raspilot.apk " in said and " bytes of 400000" in said
+    assert "raspilot.apk " in said and " bytes of 420000" in said
     assert said.rstrip().endswith(f"adb install -r {built[0]}/build/raspilot.apk")
 
 

@@ -1,4 +1,4 @@
-"""Resources for every Android name nothing that Android 4.1 lacks."""
+"""Resources for every Android name nothing that Android 4.1 lacks; texts are string resources."""
 
 from __future__ import annotations
 
@@ -57,6 +57,11 @@ BAD = {
         "has no @*android:color/white",
     ),
     "view": ("layout/b.xml", "<LinearLayout><TextClock/></LinearLayout>", "no view <TextClock>"),
+    "words": (
+        "layout/b.xml",
+        f'<TextView {SPACE} android:text="Arm"/>',
+        "android:text of <TextView> is not a string resource",
+    ),
     "named": ("layout/b.xml", "<android.widget.Toolbar/>", "no view <android.widget.Toolbar>"),
 }
 

@@ -61,7 +61,7 @@ def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
 def test_every_attitude_that_arrives_is_one_that_the_sensors_said(daemon, transport, hz):
     ground = daemon.start()
     options = ("--orientation", transport, "--orientation-hz", hz)
-    direct = ("--direct", f"127.0.0.1:{daemon.listener_port}")
+    direct = ("--direct", f"127.0.0.1:{daemon.listener_port}", "--seat", "listen")
     with PhoneProgram(*daemon.place, *options) as phone, ConsoleProgram(*direct) as console:
         phone.connected()
         console.until(lambda: console.number() is not None, "an attitude")

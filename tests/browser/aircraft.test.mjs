@@ -53,7 +53,7 @@ test("a silent second aircraft shows nothing of the first", async () => {
   assert.deepEqual(names, ["glider-1", "glider-2"]);
   await ground.page.selectOption("#aircraft-select", "glider-2");
   await ground.until(() => document.documentElement.dataset.aircraftState === "none", "nothing heard");
-  const told = (await ground.values()).filter(({ key, freshness }) => freshness !== "none" && !key.startsWith("link."));
+  const told = (await ground.values()).filter(({ key, freshness }) => freshness !== "none" && !/^(link|fleet)\./.test(key));
   assert.deepEqual(told, []);
   assert.equal(await ground.page.isEnabled('[data-mode="FBW"]'), false);
   await ground.until(charted, "charts without the first one's curves", [0, "no data in the last minute"]);

@@ -73,9 +73,11 @@ test("an application's own Command, which no ground knows, is sent by its name",
   await ground.page.click("#any-send");
   assert.equal(await ground.attribute("#any-json", "aria-invalid"), "true");
   await ground.page.fill("#any-json", '{"opening": 30}');
-  await ground.page.click("#any-send");
-  assert.equal(await ground.attribute("#confirm-yes", "class"), "danger");
-  const answer = await ground.answerTo(() => ground.page.click("#confirm-yes"));
+  const answer = await ground.answerTo(async () => {
+    await ground.page.click("#any-send");
+    assert.equal(await ground.attribute("#confirm-yes", "class"), "danger");
+    await ground.page.click("#confirm-yes");
+  });
   assert.equal(answer.outcome, "ack", JSON.stringify(answer));
   await shows("hook.opening", "30");
 });

@@ -1,13 +1,15 @@
 // Pictures of a real flight on the page, for the documentation:
-//   node pictures.mjs FOLDER
+//   node pictures.mjs FOLDER         all
+//   node pictures.mjs FOLDER fleet   several aircraft, which need no flight
 import { join } from "node:path";
 
 import { LAPTOP, PHONE, startBrowser } from "./support/browser.mjs";
+import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 
-const [folder] = process.argv.slice(2);
+const [folder, only] = process.argv.slice(2);
 const TRACK_M = 450;
 
 /** Wait until the aircraft has flown some way while the page looked on. */
@@ -52,9 +54,45 @@ async function take(ground, name) {
   await ground.page.screenshot({ path: join(folder, `ground-${name}.png`) });
 }
 
-const showcase = await startShowcase(["--turbulence", "light"], { isCalm: true });
+/** An aircraft for the picture of several. */
+function other(latitude, longitude, heading, more) {
+  const place = { latitude, longitude, altitude: 290 };
+  const navigation = { ...place, height: 80, speed: 14, heading };
+  const age_ms = { orientation: 12, flight: 20, location: 600, navigation: 50, heading: 40 };
+  return { data: { armed: true, location: place, navigation, age_ms, ...more } };
+}
+
+async function takeFleet(browser) {
+  const names = ["glider-1", "glider-2", "wing-7"];
+  const hello = (name) => `UP1 aircraft=${name}`;
+  const serve = names.flatMap((name) => ["--aircraft", name]);
+  const flight = await FakeFlight.start({ hello: hello(names[0]), serve });
+  try {
+    const home = { latitude: 50.0752, longitude: 14.4362, altitude: 210 };
+    flight.tell(other(50.0755, 14.4378, 88, { home }));
+    (await flight.another(hello(names[1]))).write(`${JSON.stringify(other(50.0764, 14.4398, 200, {}))}\n`);
+    const arduino = { connected: true, failsafe: true, flight_battery_v: 10.9 };
+    (await flight.another(hello(names[2]))).write(`${JSON.stringify(other(50.0748, 14.4405, 300, { arduino }))}\n`);
+    const ground = await (await GroundPage.open(browser, flight.address, { ...LAPTOP, colorScheme: "dark" })).isLive();
+    await ground.takeControl();
+    await ground.until(() => document.querySelectorAll(".fleet-marker").length === 2, "the others");
+    await ground.until(() => document.querySelector("#other-alarm"), "the alarm");
+    await ground.press("#panel-map .map-tools button[aria-label^='All']");
+    await take(ground, "fleet");
+  } finally {
+    await flight.stop();
+  }
+}
+
 const browser = await startBrowser();
+if (only === "fleet") {
+  await takeFleet(browser);
+  await browser.close();
+  process.exit();
+}
+const showcase = await startShowcase(["--turbulence", "light"], { isCalm: true });
 try {
+  await takeFleet(browser);
   const dark = { ...LAPTOP, colorScheme: "dark" };
   const ground = await (await GroundPage.open(browser, showcase.address, dark)).isLive();
   await ground.takeControl();

@@ -51,6 +51,20 @@ describe("without any network everything comes from the machine itself", () => {
     ground.assertClean();
   });
 
+  test("a file that a broken link does not bring is requested again, with those that need it", async () => {
+    const ground = await GroundPage.open(browser, "about:blank");
+    const lost = ["tapes.js", "disabled_reason.js"];
+    for (const name of lost) {
+      await ground.page.route(`**/${name}`, (route) => route.abort("connectionreset"), { times: 1 });
+    }
+    await ground.page.goto(showcase.address);
+    await ground.isLive();
+    assert.equal(await ground.page.isVisible("#missing"), false);
+    for (const name of lost) {
+      assert.equal(ground.seen.requests.filter((url) => url.endsWith(name)).length, 2);
+    }
+  });
+
   test("without Leaflet and uPlot the instruments work, and the page reports them", async () => {
     const ground = await GroundPage.open(browser, "about:blank");
     await ground.page.route("**/vendor/**", (route) => route.fulfill({ status: 404 }));

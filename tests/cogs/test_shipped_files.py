@@ -14,6 +14,7 @@ from mavlink_cog.config import MAVLINK
 from metrics_cog.config import METRICS
 from mission_control_cog.config import MISSION_CONTROL
 from msp_cog.config import MSP
+from msp_cog.osd_config import OSD
 from sensors_cog.config import SENSORS
 from serial_cog.config import ARDUINO
 
@@ -37,6 +38,7 @@ FILES = [
     METRICS,
     MISSION_CONTROL,
     MSP,
+    OSD,
     PIDS,
     SENSORS,
     AIRFRAME,

@@ -19,6 +19,7 @@ from up.fields import Constraint, number_text
 from up.flight_controller.pids_file import PIDS
 from up.loading.application import UP_FILE_CONFIG
 from up.loading.checking import check_application
+from up_cluster.config import FLEET
 from up_proxy.config import PROXY
 from up_runner.config import RUNNER
 
@@ -43,7 +44,7 @@ END = "<!-- tables: end -->\n"
 def configuration_files() -> list[ConfigFile[Any]]:
     """Every file that Up, Raspilot, its cogs and the programs read, by name; config.yml first."""
     system = system_of(argparse.Namespace(file=str(ROOT / "raspilot"), config=None, mode=None))
-    more = (DISABLED_MODULES, PIDS, PROXY, RUNNER, *cog_files(system.application))
+    more = (DISABLED_MODULES, PIDS, FLEET, PROXY, RUNNER, *cog_files(system.application))
     found = check_application(system.application, system.context, more).files
     named = {file.filename: file for file in found if file is not UP_FILE_CONFIG}
     first = ["config.yml", "disabled_modules.yml", "providers.yml"]

@@ -1,12 +1,14 @@
 """Writes the tables of docs/flights.md from what ``up-sim all`` left.
 
-``python -m tests.docs.flights_page FOLDER`` takes the figures from FOLDER (run/flights); it ends
-with a sentence where a scenario has not been flown there, or did not hold.
+``python -m tests.docs.flights_page FOLDER`` takes the figures from FOLDER (run/flights); what has
+not been flown there keeps its table. It ends with a sentence where a scenario did not hold, or has
+neither.
 """
 
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,6 +21,7 @@ from up_simulator.scenario.scenario import Scenario
 from up_simulator.verbs.catalogue import shipped_paths
 
 PAGE = Path(__file__).parents[2] / "docs" / "flights.md"
+_SECTION = re.compile(r"^### (\S+)\n.*?(?=^##|\Z)", re.MULTILINE | re.DOTALL)
 GROUPS = ("The Arduino flies alone", "With the daemon", "With real programs")
 
 
@@ -34,18 +37,22 @@ def group_of(scenario: Scenario) -> str:
     return GROUPS[1] if scenario.has_raspilot else GROUPS[0]
 
 
-def tables(summaries: dict[str, dict[str, Any]]) -> str:
-    """Return the generated part of the page; ``summaries`` by scenario."""
-    return "\n".join(_lines(summaries)) + "\n"
+def tables(summaries: dict[str, dict[str, Any]], kept: dict[str, str]) -> str:
+    """Return the generated part of the page; ``kept``: the tables of those without a summary."""
+    return "\n".join(_lines(summaries, kept)) + "\n"
 
 
-def _lines(summaries: dict[str, dict[str, Any]]) -> Iterator[str]:
+def _lines(summaries: dict[str, dict[str, Any]], kept: dict[str, str]) -> Iterator[str]:
     scenarios = shipped()
     for group in GROUPS:
         yield f"## {group}\n"
         for name, scenario in scenarios.items():
-            if group_of(scenario) == group:
+            if group_of(scenario) != group:
+                continue
+            if name in summaries:
                 yield from _scenario(name, scenario, summaries[name])
+            else:
+                yield kept[name].rstrip("\n") + "\n"
 
 
 def _scenario(name: str, scenario: Scenario, summary: dict[str, Any]) -> Iterator[str]:
@@ -65,7 +72,7 @@ def read_summaries(folder: Path) -> dict[str, dict[str, Any]]:
     for name in shipped():
         path = folder / name / SUMMARY
         if not path.is_file():
-            raise ValueError(f"there is no {path}: fly them all first, with up-sim all")
+            continue
         found[name] = json.loads(path.read_text(encoding="utf-8"))
         if not found[name]["held"]:
             raise ValueError(f"{name} did not hold")
@@ -76,12 +83,17 @@ def main() -> int:
     """Write the page's tables again; return the exit status."""
     try:
         summaries = read_summaries(Path(sys.argv[1] if sys.argv[1:] else "run/flights"))
+        head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
+        before, _, tail = rest.partition(END)
+        kept = {each[1]: each[0] for each in _SECTION.finditer(before)}
+        written = tables(summaries, kept)
+    except KeyError as error:
+        sys.stderr.write(f"{error.args[0]} has not been flown: up-sim all\n")
+        return 2
     except ValueError as error:
         sys.stderr.write(f"{error}\n")
         return 2
-    head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-    tail = rest.partition(END)[2]
-    PAGE.write_text(f"{head}{BEGIN}\n{tables(summaries)}{END}{tail}", encoding="utf-8")
+    PAGE.write_text(f"{head}{BEGIN}\n{written}{END}{tail}", encoding="utf-8")
     return 0
 
 

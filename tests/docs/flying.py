@@ -18,7 +18,16 @@ from tests.support.virtual_environment import REPOSITORY
 from tests.support.waiting import until
 
 LIMIT_S = 120.0
-SHOWCASE = [sys.executable, "-m", "up_simulator.demo", "--any-ports", "--no-watch"]
+# Commands and pages are tried here; tests/test_whole_system.py flies with the chip.
+SHOWCASE = [
+    sys.executable,
+    "-m",
+    "up_simulator.demo",
+    "--any-ports",
+    "--no-watch",
+    "--board",
+    "host",
+]
 
 
 @dataclass

@@ -24,6 +24,9 @@ GROUPS = {
     "phone": "phone: the phone aboard",
     "distance": "distance: of the true position from places in telemetry",
     "ground": "ground: telemetry at the ground station, by its names",
+    "goggles": "goggles: what the pilot sees on them",
+    "metrics": "metrics: the daemon's page for Prometheus",
+    "mavlink": "mavlink: what a ground station that speaks MAVLink gets",
 }
 
 
@@ -66,7 +69,8 @@ def _rows(entries: Iterable[Entry], above: str, lists: list[tuple[str, Schema]])
 
 def _signal_tables() -> Iterator[str]:
     yield "## Signals\n"
-    yield "`ground.counters.<part>.<name>` are the counters of the modules.\n"
+    yield "`ground.counters.<part>.<name>` are the counters of the modules,"
+    yield "`metrics.up_telemetry.<field>` and `metrics.up_counters.<part>.<name>` the metrics.\n"
     for source, title in GROUPS.items():
         yield f"### {title}\n"
         yield "| signal | unit | |"

@@ -62,7 +62,7 @@ def test_every_verb_is_on_the_page():
     below = next(
         action for action in verbs.choices["log"]._actions if isinstance(action.choices, dict)
     )
-    for verb in ("list", "info", "export", "plot", "report"):
+    for verb in ("list", "info", "export", "plot", "report", "view"):
         assert verb in below.choices and f"\n    up log {verb} " in f"{PAGE} ".replace(
             "log list\n", "log list \n"
         )

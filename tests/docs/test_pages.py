@@ -131,6 +131,7 @@ def test_the_paths_that_it_names_exist(page):
         "raspilot/commands/remark_command.py",
         "raspilot/flight_modes/eight.py",
         "config/lidar.yml",
+        "config/vario.yml",
     }
     made_when_used = {"config/config.yml", "config/disabled_modules.yml", "config/providers.yml"}
     for path in _PATH.findall(text_of(page)):

@@ -1,68 +1,27 @@
 """`up-ground foxglove` as a whole: a real proxy, an aircraft, a client that speaks the protocol."""
 
 import json
+import socket
 import struct
 import time
 
 import pytest
-from autobahn.twisted.websocket import WebSocketClientFactory, WebSocketClientProtocol
-from twisted.internet.endpoints import TCP4ClientEndpoint
 
 from tests.ground import aircraft as air
 from tests.ground.aircraft import Aircraft, Ground, codes, frame, ground
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.ground.foxglove_client import SUBPROTOCOL, connected, ended
+from tests.support.reactor import run_in_reactor, until
+from tests.support.waiting import until as wait_until
 from up.flight_log.foxglove import LOCATION_FIX
 from up_ground.foxglove_server import _place_of
-
-SUBPROTOCOL = "foxglove.sdk.v1"
-MESSAGE = struct.Struct("<BIQ")
-"""Opcode 1, number of the subscription, time in ns."""
-
-
-class Client(WebSocketClientProtocol):
-    """`told` has the texts, `taken` the decoded messages and times by their subscription."""
-
-    def __init__(self):
-        super().__init__()
-        self.told, self.taken, self.is_over = [], {}, False
-
-    def onMessage(self, payload, isBinary):  # noqa: N802, N803
-        if not isBinary:
-            self.told.append(json.loads(payload))
-            return
-        opcode, subscription, time_ns = MESSAGE.unpack_from(payload)
-        assert opcode == 1
-        message = json.loads(payload[MESSAGE.size :])
-        self.taken.setdefault(subscription, []).append((time_ns, message))
-
-    def onClose(self, *_):  # noqa: N802
-        self.is_over = True
-
-    def say(self, op, **fields):
-        self.sendMessage(json.dumps({"op": op, **fields}).encode())
-
-    def of(self, op):
-        return [each for each in self.told if each["op"] == op]
-
-    async def channels(self):
-        """Return the advertised channels by their topics."""
-        await until(lambda: len(self._channels()) == 2, what="two channels")
-        return self._channels()
-
-    def _channels(self):
-        return {each["topic"]: each for told in self.of("advertise") for each in told["channels"]}
 
 
 def with_client(port, look):
     async def fly():
-        factory = WebSocketClientFactory(f"ws://{port}", protocols=[SUBPROTOCOL], reactor=reactor)
-        factory.noisy, factory.protocol = False, Client
-        host, _, number = port.rpartition(":")
-        client = await TCP4ClientEndpoint(reactor, host, int(number)).connect(factory)
+        client = await connected(port)
         await until(lambda: client.of("serverInfo"), what="serverInfo")
         await look(client)
-        client.transport.abortConnection()
-        await until(lambda: client.is_over)
+        await ended(client)
 
     run_in_reactor(fly)
 
@@ -84,8 +43,7 @@ def test_a_client_reads_telemetry_and_the_place(proxy, address):
         assert (frames["encoding"], places["schemaName"]) == ("json", LOCATION_FIX)
         roll = json.loads(frames["schema"])["properties"]["orientation"]["properties"]["roll"]
         assert roll["x-unit"] == "deg"
-        wanted = [{"id": 1, "channelId": frames["id"]}, {"id": 2, "channelId": places["id"]}]
-        client.say("subscribe", subscriptions=wanted)
+        await client.subscribe()
         await until(lambda: client.of("status"), what="the status of a silent aircraft")
         assert client.taken == {}
         with Aircraft(proxy.airborne_port):
@@ -123,6 +81,19 @@ def test_what_a_client_publishes_calls_or_sets_is_refused(proxy, address):
 def test_a_port_in_use_is_one_sentence(proxy, address, tmp_path):
     status, _, said = ground(tmp_path, proxy.ground_port, "foxglove", "--listen", address)
     assert (status, codes(said)) == (1, ["listen_failed"])
+
+
+def test_without_a_client_the_log_has_why_there_are_no_frames(proxy, tmp_path):
+    with socket.socket() as deaf:
+        deaf.bind(("127.0.0.1", 0))
+        arguments = ("foxglove", "--listen", "127.0.0.1:0")
+        with Ground(tmp_path, deaf.getsockname()[1], *arguments) as server:
+            wait_until(lambda: codes(server.stderr), lambda: server.said)
+        assert codes(server.stderr) == ["unreachable"]
+    with Ground(tmp_path, proxy.ground_port, *arguments) as server:
+        wait_until(lambda: codes(server.stderr) == ["silent"], lambda: server.stderr)
+        with Aircraft(proxy.airborne_port):
+            server.expect("heard")
 
 
 def test_a_stale_or_unknown_place_is_not_published():

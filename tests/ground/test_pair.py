@@ -1,5 +1,6 @@
 """``up-ground pair``, and the keys that the other verbs then use."""
 
+import json
 import subprocess
 
 import pytest
@@ -32,6 +33,9 @@ def test_a_pasted_text_is_stored_for_this_user_alone(tmp_path):
     store = KeyStore(tmp_path / "state" / "up-ground")
     assert store.get("kite") == KITE
     assert (tmp_path / "state" / "up-ground" / FILE).stat().st_mode & 0o777 == 0o600
+    listed = pair(tmp_path, "--list", "--json").stdout
+    assert [each["aircraft"] for each in json.loads(listed)] == ["kite"]
+    assert KITE.secret not in listed
     bad = pair(tmp_path, text="upkey:1:nonsense\n")
     assert (bad.returncode, codes(bad.stderr)) == (2, ["pairing_invalid"])
 

@@ -236,6 +236,12 @@ def test_what_json_has_no_number_for_stays_text(word):
     assert parse_fields([f"a={word}"]) == {"a": word}
 
 
+def test_a_number_for_a_text_stays_as_typed():
+    typed = parse_fields(["value=80", "key=1.50", "file=true", "other=80", 'more="2"'],
+                         {"value", "key", "file", "more"})  # fmt: skip
+    assert typed == {"value": "80", "key": "1.50", "file": "true", "other": 80, "more": "2"}
+
+
 @pytest.mark.parametrize(
     "words", [["a"], ["=1"], ["a.=1"], [".a=1"], ["a..b=1"], ["a=1", "a=2"], ["a=1", "a.b=2"]]
 )

@@ -6,6 +6,7 @@ from mavlink_cog.modules.mavlink import AirbornePort, MAVLink
 from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 from pymavlink.dialects.v20 import common as m
 
+from raspilot.flight_modes.land import Land
 from raspilot.flight_modes.mission import Mission
 from raspilot.flight_modes.return_home import Return
 from raspilot.modules.plans import Plans
@@ -94,10 +95,12 @@ class Client:
 
 
 class MAVRig(NavigationRig):
-    def __init__(self, folder, role=Role.PILOT, persona="ardupilot", key=None, ground_id=None):
+    def __init__(
+        self, folder, role=Role.PILOT, persona="ardupilot", key=None, ground_id=None, modules=()
+    ):
         super().__init__(
-            folder, modes=(Return, Mission), mission_control="listener: {port: 0}\n",
-            modules=(Plans, MissionControlProvider, MAVLink, Tuner),
+            folder, modes=(Return, Mission, Land), mission_control="listener: {port: 0}\n",
+            modules=(Plans, MissionControlProvider, MAVLink, Tuner, *modules),
             mavlink="endpoints: [{url: 'tcpin:127.0.0.1:0'}]\n",
         )  # fmt: skip
         control = self.up.get_module(MissionControlProvider)
@@ -118,11 +121,11 @@ class MAVRig(NavigationRig):
     def client(self, **more):
         return Client(self, self.endpoint, **more)
 
-    def telemetry(self):
-        """Let a frame of telemetry leave."""
+    def telemetry(self, **more):
+        """Let a frame of telemetry leave; ``more`` is what modules report that are not here."""
         self.setpoint()
         controller = self.up.telemetry_controller
-        content = controller.collect()
+        content = {**controller.collect(), **more}
         self.bus.execute_command(TelemetryCommand(content, self.up.beacons.draw()))
 
     def fly(self):

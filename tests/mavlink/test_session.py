@@ -7,9 +7,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from raspilot.modules.failsafes import Failsafes
+from raspilot.modules.parameters import Parameters
 from tests.mavlink.rig import MAVRig, m
 from tests.raspilot.mission.plans_rig import placed
 from up.commands.roles import Role
+from up_mavlink.modes import numbers_of
+from up_mavlink.personas import BY_NAME
 
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED, FAILED, IN_PROGRESS = range(6)
 NAN = math.nan
@@ -150,7 +154,6 @@ def test_a_command_that_is_repeated_while_it_is_carried_out_is_carried_out_once(
         (400, (NAN,), DENIED),
         (246, (1,), UNSUPPORTED),
         (511, (9999, 1e5), UNSUPPORTED),
-        (512, (435,), UNSUPPORTED),
         (519, (1,), UNSUPPORTED),
         (192, (0, 0, 0, 0, NAN, NAN, NAN), DENIED),
     ],
@@ -176,6 +179,58 @@ def test_reposition_flies_there(rig, frame, altitude, expected):
     target = rig.manager.situation.target
     assert abs(target.altitude_m - expected) < 1
     assert abs(target.point.north_m - 200) < 1
+
+
+def selected(rig, client, number):
+    """Select a mode; the next frame of telemetry has it."""
+    assert client.command(176, 1, number) == ACCEPTED
+    rig.telemetry(flight_mode="SETPOINT")
+
+
+def test_altitude_and_course_change_in_the_mode_that_follows_them(rig):
+    rig.fly()
+    client, where = rig.client(), placed(200, 100)
+    assert client.command(186, 300, 0) == DENIED
+    selected(rig, client, 12)
+    for number, params, expected in ((186, (300, 0), 300.0), (186, (90, 3), 290.0)):
+        assert client.command(number, *params) == ACCEPTED
+        assert rig.manager.required("altitude") == expected
+    place = (round(where["latitude"] * 1e7), round(where["longitude"] * 1e7), 260.0)
+    client.send("command_int", 1, 1, 0, 192, 0, 0, -1, 1, 70, NAN, *place)
+    rig.telemetry()
+    rig.telemetry(flight_mode="SETPOINT")
+    client.send("command_int", 1, 1, 3, 43001, 0, 0, 0, 0, 0, 0, 0, 0, 80.0)
+    assert client.result(43001) == ACCEPTED
+    rig.setpoint()
+    target = rig.manager.situation.target
+    assert (round(target.altitude_m), round(target.radius_m)) == (280, 70)
+    assert abs(target.point.north_m - 200) < 1
+    selected(rig, client, numbers_of(BY_NAME["ardupilot"], rig.endpoint.aircraft.frame)["BANK"])
+    assert client.command(43002, 0, 90) == ACCEPTED
+    assert rig.manager.required("course") == 90.0
+    assert client.command(43002, 1, 120) == client.command(43002, 0, NAN) == DENIED
+    client.send("command_int", 1, 1, 8, 43001, 0, 0, 0, 0, 0, 0, 0, 0, 80.0)
+    assert client.result(43001) == DENIED
+    assert rig.manager.required("course") == 90.0
+
+
+@pytest.mark.parametrize(
+    ("height", "result", "mode"), [(0.0, ACCEPTED, "LAND"), (NAN, ACCEPTED, "LAND"),
+                                   (60.0, DENIED, "LOITER")],
+)  # fmt: skip
+def test_land_at_a_place_lands_there_or_leaves_no_target_near_the_ground(rig, height, result, mode):
+    rig.fly()
+    client, where = rig.client(), placed(200, 100)
+    place = (round(where["latitude"] * 1e7), round(where["longitude"] * 1e7))
+    client.send("command_int", 1, 1, 3, 192, 0, 0, -1, 1, 0, NAN, *place, 80.0)
+    rig.telemetry(flight_mode="SETPOINT")
+    client.send("command_int", 1, 1, 3, 21, 0, 0, 0, 0, 0, NAN, *place, height)
+    assert client.result(21) == result
+    rig.setpoint()
+    assert rig.shown()["selected"] == mode
+    if result == ACCEPTED:
+        assert abs(rig.manager.situation.target.point.north_m - 200) < 1
+        assert round(rig.manager.situation.target.altitude_m) == 200
 
 
 def test_guided_without_a_target_circles_here(rig):
@@ -280,6 +335,38 @@ def test_parameters_are_set_one_by_one_and_a_refused_one_keeps_its_value(rig):
     assert [each.param_value for each in client.of("PARAM_VALUE")[2:]] == [2.5, 2.5, 2.5, 1.0]
     client.send("param_set", 1, 1, b"TELEM_PERIOD_MS", 200.0, 9)
     assert rig.up.telemetry_controller.wanted_period_ms == 200
+
+
+def test_keys_of_configuration_files_are_parameters_that_act_at_the_next_start(tmp_path):
+    rig = MAVRig(tmp_path, modules=(Parameters, Failsafes))
+    rig.state("FBW", armed=False, auto=False, in_flight=False)
+    client = rig.client()
+
+    def listed():
+        client.got.clear()
+        client.send("param_request_list", 1, 1)
+        rig.clock.pump([0.01] * 400)
+        rig.telemetry()
+        return {each.param_id: each.param_value for each in client.of("PARAM_VALUE")}
+
+    before = listed()
+    assert len(before) == client.of("PARAM_VALUE")[0].param_count
+    assert (before["LOITER_RADIUS_M"], before["RETURN_LAND"]) == (50.0, 0.0)
+    for name, value in ((b"LOITER_RADIUS_M", 75.3), (b"RETURN_LAND", 1.0)):
+        client.send("param_set", 1, 1, name, value, 9)
+    assert "LOITER_RADIUS_M (loiter.yml: radius_m)" in "".join(client.texts)
+    assert not client.of("PARAM_ERROR")
+    assert (tmp_path / "loiter.yml").read_text() == "radius_m: 75.3\n"
+    assert (tmp_path / "return.yml").read_text() == "land: true\n"
+    after = listed()
+    changed = {name for name in before if after[name] != before[name]}
+    assert changed == {"LOITER_RADIUS_M", "RETURN_LAND"}
+    assert round(after["LOITER_RADIUS_M"], 4) == 75.3
+    client.send("param_set", 1, 1, b"LOITER_RADIUS_M", 1.0, 9)
+    rig.state("FBW")
+    client.send("param_set", 1, 1, b"LOITER_RADIUS_M", 60.0, 9)
+    assert [each.error for each in client.of("PARAM_ERROR")] == [2, 3]
+    assert (tmp_path / "loiter.yml").read_text() == "radius_m: 75.3\n"
 
 
 def test_a_list_of_parameters_waits_for_control(rig):

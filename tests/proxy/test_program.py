@@ -15,6 +15,7 @@ from up_proxy.listener import StartError
 from up_proxy.main import main
 from up_proxy.proxy import Proxy
 
+PORTS = ["--airborne-port=0", "--ground-port=0", "--metrics-port=0"]
 # A shell without job control starts background programs with SIGINT ignored.
 IN_BACKGROUND = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
 
@@ -52,6 +53,17 @@ def test_it_relays_until_a_signal_without_waiting_for_its_clients(tmp_path, how,
             client.close()
     assert proxy.codes()[-1] == "stopped"
     assert "Traceback" not in proxy.log
+
+
+def test_a_signal_as_soon_as_its_ports_are_open_ends_it_in_order(tmp_path):
+    (tmp_path / "proxy.yml").write_text("")
+    program = (
+        "import os, sys; from up_proxy import main, proxy; start = proxy.Proxy.start\n"
+        "proxy.Proxy.start = lambda self: (start(self), os.kill(os.getpid(), 15))\n"
+        f"sys.exit(main.main({['--config', str(tmp_path), *PORTS]}))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], stderr=subprocess.PIPE, timeout=60)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("signals", [[signal.SIGUSR1, signal.SIGUSR2], [signal.SIGHUP]])

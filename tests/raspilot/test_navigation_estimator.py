@@ -21,7 +21,7 @@ from up.commands.telemetry_schema import FIELDS
 from up.earth import MEAN_RADIUS_M
 
 BOARD = Origin("arduino", Role.BOARD, 10)
-PHONE = Origin("android", Role.SENSOR, 0)
+PHONE, RECEIVER = Origin("android", Role.SENSOR, 0), Origin("gps", Role.SENSOR, 20)
 PITOT, SPARE = Origin("pitot", Role.SENSOR, 20), Origin("spare", Role.SENSOR, 10)
 SPEED_M_S, RADIUS_M, DELAY_S = 11.0, 60.0, 0.5
 METRES_PER_DEG = math.radians(MEAN_RADIUS_M)
@@ -43,19 +43,20 @@ class Rig:
     def heading_rad(self, time_s):
         return SPEED_M_S / RADIUS_M * time_s
 
-    def location(self, time_s, **changes):
+    def location(self, time_s, origin=PHONE, north_m=0.0, **changes):
         angle = self.heading_rad(time_s)
         values = {
-            "latitude_deg": RADIUS_M * math.sin(angle) / METRES_PER_DEG,
+            "latitude_deg": (north_m + RADIUS_M * math.sin(angle)) / METRES_PER_DEG,
             "longitude_deg": 14 + RADIUS_M * (1 - math.cos(angle)) / METRES_PER_DEG,
             "altitude_m": 300.0,
             "speed_m_s": SPEED_M_S,
             "bearing_deg": math.degrees(angle) % 360,
             "age_ms": DELAY_S * 1000,
         }
-        self.publish(LocationCommand(**{**values, **changes}), PHONE)
+        self.publish(LocationCommand(**{**values, **changes}), origin)
 
-    def fly(self, duration_s, **changes):
+    def fly(self, duration_s, wrong_m=None, **changes):
+        """Fly by the phone, and by a receiver whose fixes are `wrong_m` beside, if there is one."""
         for _ in range(round(duration_s / 0.02)):
             self.clock.advance(0.02)
             now_s = self.clock.seconds()
@@ -64,6 +65,15 @@ class Rig:
             self.publish(OrientationCommand(self.roll_deg, 0.9, yaw_deg), BOARD)
             if round(now_s * 50) % 50 == 0:
                 self.location(now_s - DELAY_S, **changes)
+            if wrong_m is not None and round(now_s * 50) % 10 == 0:
+                self.location(now_s - 0.1, RECEIVER, wrong_m, age_ms=100)
+
+    @property
+    def off_m(self):
+        """How far the estimate is north of the truth."""
+        latitude_deg, _ = self.module.state.frame.degrees(self.module.state.position)
+        true_m = RADIUS_M * math.sin(self.heading_rad(self.clock.seconds()))
+        return latitude_deg * METRES_PER_DEG - true_m
 
     def feel(self, forward_m_s2, duration_s=3):
         """Fly with an acceleration."""
@@ -93,6 +103,8 @@ def test_before_a_fix_nothing_is_known(rig):
 def test_the_age_of_the_reading_is_that_of_the_fix(rig):
     rig.fly(20)
     assert rig.module.age_ms == pytest.approx(500, abs=1)
+    rig.fly(1)
+    # Before anything else reads the state: what is fresh is computed, never the value before.
     assert rig.module.fresh(0.51).value is rig.module.state
     assert rig.module.fresh(0.4) is None
     assert rig.module.reading.source == "android"
@@ -136,6 +148,27 @@ def test_rejected_fixes_are_counted_by_reason(rig):
     counters = rig.module.telemetry_content["counters"]["navigation"]
     assert (counters["accuracy"], counters["jump"]) == (2, 1)
     assert rig.module.age_ms == pytest.approx(3500, abs=1)
+
+
+def test_a_source_that_another_one_and_the_estimate_contradict_is_left_out(rig):
+    rig.fly(30, wrong_m=0.0)
+    assert rig.module.location.reading.source == "gps"
+    for _ in range(15):
+        rig.fly(1, wrong_m=300.0)
+        assert abs(rig.off_m) < 10
+    assert rig.module.location.reading.source == "android"
+    assert rig.module.telemetry_content["counters"]["navigation"]["doubted"] > 50
+    rig.fly(4, wrong_m=0.0)
+    assert rig.module.location.reading.source == "gps"
+
+
+def test_a_wrong_phone_changes_nothing_until_it_is_the_only_source(rig):
+    rig.fly(30, wrong_m=0.0)
+    rig.fly(15, wrong_m=0.0, north_m=200.0)
+    assert rig.module.location.reading.source == "gps" and abs(rig.off_m) < 5
+    # Nothing contradicts it any more, and the aircraft can have flown there.
+    rig.fly(20, north_m=200.0)
+    assert rig.module.location.reading.source == "android" and rig.off_m > 150
 
 
 def test_only_the_followed_source_and_valid_values_are_used(rig):

@@ -58,7 +58,7 @@ def test_paths_by_default(tmp_path):
     assert paths.profiles == tmp_path / "profiles"
     assert paths.run == paths.instances == Path("/tmp/up-runner-7")
     assert paths.logs == Path("/tmp/up-runner-7/.logs")
-    assert paths.root == own_root() and paths.script == own_root() / "main.py"
+    assert paths.root == own_root() and paths.script is None
     assert Paths.of(RunnerConfig(mode="auto"), tmp_path, {}, 7).base == tmp_path
 
 

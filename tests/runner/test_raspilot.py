@@ -1,22 +1,17 @@
 """The runner with the real Raspilot and its Android cog."""
 
-import importlib.util
 import os
-import shutil
 import signal
 import socket
 import time
-from pathlib import Path
 
 import pytest
-import yaml
 
+from tests.runner.raspilot_copy import copy_of_raspilot
 from tests.runner.runners import can_connect, is_alive, wait_until
 from tests.runner.test_watching import restarted
 from tests.support.sandbox import service, under
 from tests.support.tools import need_tool
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -24,19 +19,7 @@ def raspilot(runners, short_path):
     """Make a runner of a copy of Raspilot with some cogs registered and nothing else."""
 
     def make(cogs=("android_cog",), **config):
-        root = short_path / "application"
-        ignored = shutil.ignore_patterns("__pycache__", "external_modules.yml")
-        shutil.copytree(ROOT / "raspilot", root / "raspilot", ignore=ignored)
-        shutil.copy(ROOT / "main.py", root)
-        external = {}
-        for cog in cogs:
-            folder = Path(importlib.util.find_spec(cog).origin).parent
-            registered = yaml.safe_load((folder / "registered_modules.yml").read_text())
-            modules = registered["modules"] if isinstance(registered, dict) else registered
-            external[cog] = {"source": "manual", "modules": modules}
-        (root / "raspilot" / "external_modules.yml").write_text(yaml.safe_dump(external))
-        settings = {"application root": str(root), "script path": "main.py", "start limit": 60}
-        return runners(**(settings | config))
+        return runners(**(copy_of_raspilot(short_path / "application", cogs) | config))
 
     return make
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import os
 from pathlib import Path
 
@@ -14,8 +13,6 @@ ROOT = ARDUINO.parent
 CORE = build.CORE.parent
 BuildError = build.BuildError
 make = build.make
-# The sources stay as they are while the tests run: make need not look at them for every test.
-_build_once = functools.cache(build.build_firmware)
 
 
 def need_toolchain() -> None:
@@ -33,4 +30,4 @@ def build_firmware(*options: str) -> Path:
     if not options and "RASPILOT_ELF" in os.environ:
         return Path(os.environ["RASPILOT_ELF"])
     need_toolchain()
-    return _build_once(*options)
+    return build.build_firmware(*options)

@@ -24,7 +24,7 @@ def need_browser() -> str:
     """Return the path of Node; its modules of the browser's tests and Chromium are there, too."""
     node = need_tool("node", "nodejs")
     need_tool("npm")
-    need_tool("chromium")
+    need_tool("chromium-headless-shell")
     modules = [REPOSITORY / "tools" / "npm_modules", REPOSITORY / "tests" / "browser"]
     installed = subprocess.run(modules, capture_output=True, text=True, check=False)
     if installed.returncode != 0:

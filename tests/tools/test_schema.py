@@ -23,12 +23,13 @@ LINES = {
     "status": (
         "  - {name: brown_outs, type: u8, about: brown-outs since power-on,"
         " row: {label: Brown-outs}, alarm: {above: 2, level: alarm,"
-        " text: the supply fails, end: the supply is stable, hold_s: 5}}\n"
+        " text: the supply fails, end: the supply is stable, hold_s: 5, cure: a better BEC}}\n"
     ),
     "telemetry": (
         "  - {name: load.temperature, unit: degC, row: {label: Temperature},"
         " about: of the processor, alarm: {above: 80, back: 5, level: alarm, code: too_hot,"
-        " text: the Raspberry Pi is too hot, end: the Raspberry Pi has cooled down, hold_s: 5}}\n"
+        " text: the Raspberry Pi is too hot, end: the Raspberry Pi has cooled down,"
+        " hold_s: 5, cure: air}}\n"
     ),
 }
 MEASURED = ('"ram": self.ram,', '"ram": self.ram, "temperature": self.ram,')
@@ -96,7 +97,8 @@ def tree(tmp_path_factory):
         ignored = shutil.ignore_patterns("__pycache__", "node_modules", "vendor")
         shutil.copytree(ROOT / name, root / name, ignore=ignored)
     (root / "docs").mkdir()
-    shutil.copy(ROOT / "docs" / "protocols.md", root / "docs")
+    for page in ("protocols.md", "troubleshooting.md"):
+        shutil.copy(ROOT / "docs" / page, root / "docs")
     for name, line in LINES.items():
         with (root / "schema" / f"{name}.yml").open("a", encoding="utf-8") as file:
             file.write(line)
@@ -191,6 +193,8 @@ def test_they_are_in_the_app_and_in_the_documents(tree):
     assert codes["`brown_outs`"] == "`arduino.brown_outs` above 2"
     assert codes["`too_hot`"] == "`load.temperature` above 80"
     assert ["`x`", "78", "24"] in heads
+    cures = (tree / "docs" / "troubleshooting.md").read_text()
+    assert "`brown_outs` | a better BEC |" in cures
 
 
 @pytest.mark.parametrize(
@@ -199,6 +203,7 @@ def test_they_are_in_the_app_and_in_the_documents(tree):
         ("status", "{name: odd, type: u64}", "odd"),
         ("status", "{name: odd, type: u8, colour: red}", "colour"),
         ("status", "{name: odd, type: u8, alarm: {level: alarm}}", "alarm"),
+        ("status", "{name: odd, type: u8, alarm: {above: 2}}", "cure"),
         ("telemetry", "{name: odd, type: u8}", "odd"),
         ("telemetry", "{name: odd, alarm: {above: 1, below: 2}}", "alarm"),
         ("telemetry", "{name: odd, reading: mood}", "mood"),

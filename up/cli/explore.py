@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import json
+from dataclasses import asdict
 from pathlib import Path
 
 from up.base_module import BaseModule
@@ -19,7 +21,8 @@ def run(values: argparse.Namespace) -> int:
     """List the module classes, and write the manifest on request."""
     start = Path(values.file) if values.file else Path.cwd()
     if values.type == "recorders":
-        echo("recorders were replaced by Thread Modules, see 'up create module -t thread'")
+        text = "recorders were replaced by Thread Modules, see 'up create module -t thread'"
+        echo("[]" if values.json else text)
         return 0
     package = package_at(start.resolve())
     found = Discovered()
@@ -27,18 +30,22 @@ def run(values: argparse.Namespace) -> int:
     for folder in MODULE_FOLDERS:
         discover_folder(found, package, folder, frozenset())
     entries = [_entry(cls) for cls in found.modules]
-    for entry in entries:
-        echo(entry.path)
+    if values.json:
+        echo(json.dumps([asdict(entry) for entry in entries], indent=1))
+    else:
+        for entry in entries:
+            echo(entry.path)
     print_problems(found.problems)
     if found.problems:
         raise CliError(f"correct them first; {MANIFEST_FILE} is unchanged", code="module_broken")
-    if not entries:
+    if not entries and not values.json:
         echo(
             f"no module class in {' or '.join(str(package.root / each) for each in MODULE_FOLDERS)}"
         )
     if values.write:
         write_manifest(package.root / MANIFEST_FILE, entries)
-        echo(f"wrote {package.root / MANIFEST_FILE}")
+        if not values.json:
+            echo(f"wrote {package.root / MANIFEST_FILE}")
     return 0
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from datetime import UTC, datetime
 from pathlib import Path
@@ -47,13 +48,24 @@ def revoke(values: argparse.Namespace) -> int:
 def list_(values: argparse.Namespace) -> int:
     """List the keys without their secrets."""
     today = datetime.now(UTC).date()
-    for key_id, key in KEYS.load(_folder(values)).keys.items():
-        state = key.refusal(today) or "valid"
-        until = f" until {key.not_after}" if key.not_after else ""
-        whose = key.aircraft or "every aircraft"
-        text = f"{key_id}  {key.name}  {key.role}  {whose}  {state}{until}"
-        more = {"role": key.role, "aircraft": key.aircraft, "state": state}
-        echo(text, "key", key_id=key_id, name=key.name, **more)
+    rows = [
+        {
+            "key_id": key_id,
+            "name": key.name,
+            "role": key.role,
+            "aircraft": key.aircraft,
+            "state": key.refusal(today) or "valid",
+            "not_after": key.not_after,
+        }
+        for key_id, key in KEYS.load(_folder(values)).keys.items()
+    ]
+    if values.json:
+        echo(json.dumps(rows, indent=1))
+        return EXIT_OK
+    for row in rows:
+        until = f" until {row['not_after']}" if row["not_after"] else ""
+        whose = row["aircraft"] or "every aircraft"
+        echo(f"{row['key_id']}  {row['name']}  {row['role']}  {whose}  {row['state']}{until}")
     return EXIT_OK
 
 

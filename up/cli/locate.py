@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import suppress
 from pathlib import Path
 
 from up.cli.cli_error import UsageError
-from up.loading.application import UP_FILE, Application
+from up.loading.application import UP_FILE, Application, NoApplicationError
 
 
 def application_of(values: argparse.Namespace) -> Application:
     """Return the application that ``--file`` or the current folder belongs to.
+
+    ``--file`` is a path, or else the name of an installed application.
 
     Raises NoApplicationError or ConfigErrors, UsageError for a ``--file`` that does not exist.
     """
@@ -18,6 +21,11 @@ def application_of(values: argparse.Namespace) -> Application:
     if start.name == UP_FILE and start.is_file():
         start = start.parent
     if not start.is_dir():
-        text = f"--file {values.file}: neither an application's folder nor its {UP_FILE}"
+        with suppress(NoApplicationError):
+            return Application.installed(values.file)
+        text = (
+            f"--file {values.file}: neither an application's folder, nor its {UP_FILE}, nor the"
+            " name of an installed application"
+        )
         raise UsageError(text, "file_missing")
     return Application.find(start)

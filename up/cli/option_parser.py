@@ -5,10 +5,13 @@ from __future__ import annotations
 import argparse
 import functools
 import math
+import re
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
+from up.cli.completion import SHELLS, Verb, script, verb_of
 from up.errors import UserError
 from up.fields import suggestion
 from up.output import FORMAT_VARIABLE, print_problems, wants_json
@@ -18,6 +21,8 @@ EXIT_FAILED = 1
 EXIT_USAGE = 2
 """A mistake in the arguments or the configuration."""
 EXIT_INTERRUPTED = 130
+_GIVE_PARSER = "\0"
+"""No argument of a process can be this."""
 
 
 def add_json_option(parser: argparse.ArgumentParser) -> None:
@@ -65,19 +70,54 @@ def bounded_number(minimum: float, maximum: float, unit: str) -> Callable[[str],
 port_number = whole_number(1, 65535)
 
 
+class _PrintCompletion(argparse.Action):
+    """Prints the completion script of the program for a shell, and ends it."""
+
+    def __call__(self, parser: Any, namespace: object, values: Any, option: Any = None) -> None:
+        sys.stdout.write(script(values, parser.prog, parser.completion()))
+        parser.exit(EXIT_OK)
+
+
+class _ParserFound(BaseException):
+    """Carries the parser of a verb out of its main function."""
+
+
+def parser_in(main: Callable[[list[str]], object]) -> OptionParser:
+    """Return the parser of a verb's main function, which ends where it parses its arguments."""
+    try:
+        main([_GIVE_PARSER])
+    except _ParserFound as found:
+        parser: OptionParser = found.args[0]
+        return parser
+    raise AssertionError(f"{main} parses no arguments")
+
+
 class OptionParser(argparse.ArgumentParser):
     """Reports a wrong argument in one sentence, with the probable intention, and exits with 2.
 
-    Descriptions and epilogs keep their line breaks. Parsers of verbs are of the same class.
+    Descriptions and epilogs keep their line breaks. Parsers of verbs are of the same class. The
+    parser of a program has ``--print-completion``.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
         formatter = functools.partial(argparse.RawDescriptionHelpFormatter, width=80)
         options.setdefault("formatter_class", formatter)
         super().__init__(*args, **options)
+        # "make run" and "main.py" are not commands that a shell completes.
+        if not re.search(r"[ .]", self.prog):
+            text = "print the completion script for a shell"
+            self.add_argument(
+                "--print-completion", action=_PrintCompletion, choices=SHELLS, help=text
+            )
+
+    def completion(self) -> Verb:
+        """Return everything that the program accepts."""
+        return verb_of(self)
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Return the values; ends the program at a mistake."""
+        if args == [_GIVE_PARSER]:
+            raise _ParserFound(self)
         values, unknown = self.parse_known_args(args, namespace)
         if unknown:
             parser = getattr(values, "parser", None) or self

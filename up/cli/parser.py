@@ -55,6 +55,12 @@ examples:
   up keys add --role pilot --name tablet   then, on the device: up-ground pair
   up keys revoke tablet                    ends its sessions at once
 """
+_BUNDLE_EPILOG = """\
+example, in a clone:
+  make dist
+  up bundle /media/stick --platform linux_aarch64 --python 3.13
+There: sudo python3 install.py, in the folder that it wrote.
+"""
 _EXPLORE_EPILOG = """\
 In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of the
 modules that the cog adds to an application.
@@ -86,8 +92,9 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
         "-f",
         "--file",
         metavar="PATH",
-        help="the application's folder or UpFile (default: found from the current folder);"
-        " for 'create module' and 'create handler' the file to write",
+        help="the application's folder or UpFile, or the name of an installed application"
+        " (default: found from the current folder); for 'create module' and 'create handler'"
+        " the file to write",
     )
     verbs = parser.add_subparsers(title="verbs", metavar="VERB")
     _add_create(verbs)
@@ -110,9 +117,14 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     modules = _add(verbs, "modules", "list the modules in order, and why others are left out")
     modules.epilog = 'example: up modules --mode "black box"'
     add_json_option(modules)
+    text = "examine this machine: serial ports, clock, power, disk, priority, packages"
+    doctor = add_verb(verbs, "doctor", "up.doctor.verb", text)
+    doctor.epilog = "exit status: 0 nothing forbids a flight, warnings included; 1 an error"
+    add_json_option(doctor)
     schemas = _add(verbs, "schemas", "write the JSON Schema of each configuration file for editors")
     schemas.add_argument("folder", type=Path, metavar="DIR", help="created if missing")
     _add_certificates(verbs)
+    _add_bundle(verbs)
     update = add_verb(verbs, "update", "up.cli.update", "upgrade the framework", aliases=("u",))
     update.add_argument("--dry-run", action="store_true", help="only show the pip command")
     for each in (start, check):
@@ -172,6 +184,27 @@ def _add_create(verbs: Any) -> None:
             kind.add_argument(
                 "-i", "--identifier", required=True, help="name of the Command, like plane.bay.open"
             )
+
+
+def _add_bundle(verbs: Any) -> None:
+    text = "write all that an installation without a network needs, to a USB stick for example"
+    bundle = add_verb(verbs, "bundle", "up.bundle.verb", text, epilog=_BUNDLE_EPILOG)
+    bundle.add_argument("folder", type=Path, metavar="DIR", help="the bundle is a folder in it")
+    bundle.add_argument(
+        "--dist", type=Path, default=Path("dist"), metavar="DIR", help="(default: dist)"
+    )
+    bundle.add_argument(
+        "--platform",
+        action="append",
+        choices=("linux_x86_64", "linux_aarch64"),
+        help="of the packages, again for each (default: this machine's)",
+    )
+    bundle.add_argument(
+        "--python",
+        action="append",
+        choices=("3.11", "3.12", "3.13", "3.14"),
+        help="there, again for each (default: this one's)",
+    )
 
 
 def _add_certificates(verbs: Any) -> None:
@@ -241,7 +274,7 @@ def _add_keys(verbs: Any) -> None:
         each.add_argument("--png", type=Path, metavar="FILE", help="write the QR code there too")
     revoke = action("revoke", "refuse a device from now on; a running program notices it")
     revoke.add_argument("name", help="name or id of the key")
-    action("list", "list the keys without their secrets", "list_")
+    add_json_option(action("list", "list the keys without their secrets", "list_"))
 
 
 def _add_explore(verbs: Any) -> None:
@@ -261,3 +294,4 @@ def _add_explore(verbs: Any) -> None:
         help="recorders were replaced by Thread Modules",
     )
     explore.add_argument("-w", "--write", action="store_true", help="write registered_modules.yml")
+    add_json_option(explore)

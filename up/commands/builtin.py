@@ -26,6 +26,11 @@ from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.panic_command import PanicCommand
+from up.commands.parameter_commands import (
+    ParameterRequestCommand,
+    ParameterSetCommand,
+    ParameterValuesCommand,
+)
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.rx_command import RXCommand
 from up.commands.servo_command import ServoCommand
@@ -65,6 +70,9 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     PIDTuningsCommand,
     PIDTuningsValuesCommand,
     PanicCommand,
+    ParameterRequestCommand,
+    ParameterSetCommand,
+    ParameterValuesCommand,
     RXCommand,
     ServoCommand,
     SetpointCommand,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, NoReturn
 
 MAX_DEPTH = 32
@@ -35,6 +35,39 @@ def decode(data: bytes) -> dict[str, Any]:
     if "\\u" in text:
         _reject_surrogates(fields)
     return fields
+
+
+def decode_all(messages: Sequence[bytes]) -> list[dict[str, Any] | ValueError]:
+    """Return the object of each message as `decode` does, or the error that it raises.
+
+    Several times as fast for short messages: they are parsed together, and one by one only if any
+    of them may be refused.
+    """
+    joined = b",".join(messages)
+    # One bracket a message, so that none of them completes another.
+    is_flat = joined.count(b"{") == len(messages) and b"[" not in joined
+    if is_flat and b"\\u" not in joined:
+        try:
+            found = _DECODER.decode(f"[{str(joined, 'utf-8')}]")
+        except (ValueError, RecursionError):
+            found = []
+        if len(found) == len(messages) and all(map(_is_finite, found)):
+            return found  # type: ignore[no-any-return]
+    return [_decoded(each) for each in messages]
+
+
+def _is_finite(fields: Any) -> bool:
+    if type(fields) is not dict:
+        return False
+    values = fields.values()
+    return not (_INFINITY in values or -_INFINITY in values)
+
+
+def _decoded(message: bytes) -> dict[str, Any] | ValueError:
+    try:
+        return decode(message)
+    except ValueError as error:
+        return error
 
 
 def value_at(data: Any, path: Iterable[str]) -> Any:

@@ -10,7 +10,9 @@ from up.flight_modes.flight_mode import FlightMode
 
 MAX_NAME = 16
 _NAME = re.compile(rf"[A-Z][A-Z0-9_]{{1,{MAX_NAME - 1}}}")
-RESERVED = ("AUTO", "RATE")
+AUTO = "AUTO"
+"""No flight mode: it selects ``navigation.yml: auto_mode``."""
+RESERVED = (AUTO, "RATE")
 BOARD_MODES = ("FBW", "RATE", "ACRO")
 """A fallback to one of these, where the Raspberry Pi has none of that name, is the board's."""
 

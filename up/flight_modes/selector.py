@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import Any, TypeVar
 
 from twisted.logger import Logger
@@ -25,6 +26,8 @@ FAILED, OVERRUN, INVALID, REFUSED, UNKNOWN = (
 )
 _T = TypeVar("_T")
 _FAULTS = (Exception, SystemExit)
+_DEMANDS = (PathDemand, AttitudeDemand, SurfacesDemand)
+_NUMBERS = (int, float)
 
 
 class DemandError(ValueError):
@@ -52,6 +55,7 @@ class FlightModeSelector:
         self.active: str | None = None
         self.reason: str | None = None
         self._is_fresh = is_fresh
+        self._candidates: tuple[str, ...] = ()
         self._broken: dict[str, str] = {}
         self._entered: set[str] = set()
         self.timer = StepTimer()
@@ -98,6 +102,11 @@ class FlightModeSelector:
     def select(self, name: str | None) -> None:
         """Select a mode, which is entered at its first step; None: none."""
         self.selected = name
+        candidates: list[str] = []
+        while name in self.modes and name not in candidates:
+            candidates.append(name)
+            name = self.modes[name].FALLBACK
+        self._candidates = tuple(candidates)
         self.active = self.reason = None
         self._broken.clear()
         self._entered.clear()
@@ -113,7 +122,7 @@ class FlightModeSelector:
         ``carry_out`` raises DemandError for a demand that it cannot carry out.
         """
         reason: str | None = None
-        for name in self._candidates():
+        for name in self._candidates:
             missing = self.missing_for(name)
             code = self._broken.get(name) or (missing[0] if missing else None)
             if code is None:
@@ -127,13 +136,6 @@ class FlightModeSelector:
             reason = reason or code
         self._note_active(None, reason)
         return None
-
-    def _candidates(self) -> Iterator[str]:
-        name, seen = self.selected, set[str]()
-        while name in self.modes and name not in seen:
-            seen.add(name)
-            yield name
-            name = self.modes[name].FALLBACK
 
     def _run(
         self,
@@ -151,7 +153,7 @@ class FlightModeSelector:
         demand = mode.step(situation, dt_s)
         if timer.is_overrun(mode.TIME_BUDGET_S):
             raise DemandError(f"a step took {timer.last_s * 1000:.0f} ms", OVERRUN)
-        if not isinstance(demand, PathDemand | AttitudeDemand | SurfacesDemand):
+        if not isinstance(demand, _DEMANDS):
             raise DemandError(f"step returned {demand!r:.80}, not a Demand")
         if not _is_finite(demand):
             raise DemandError(f"{demand!r:.200} is not finite")
@@ -190,10 +192,19 @@ def _refusal_of(mode: FlightMode, situation: FlightSituation) -> ModeRefusal | N
 
 
 def _is_finite(value: Any) -> bool:
-    if isinstance(value, int | float):
-        return math.isfinite(value)
-    if isinstance(value, tuple):
-        return all(map(_is_finite, value))
-    if is_dataclass(value):
-        return all(_is_finite(getattr(value, each.name)) for each in fields(value))
-    return value is None
+    """Return whether a demand, or a part of one, has no other values than finite ones and None."""
+    names = _fields_of(value.__class__)
+    if not names and not isinstance(value, tuple):
+        return False
+    for part in [getattr(value, name) for name in names] if names else value:
+        if isinstance(part, _NUMBERS):
+            if not math.isfinite(part):
+                return False
+        elif part is not None and not _is_finite(part):
+            return False
+    return True
+
+
+@cache
+def _fields_of(kind: type) -> tuple[str, ...]:
+    return tuple(each.name for each in fields(kind)) if is_dataclass(kind) else ()

@@ -73,6 +73,19 @@ class Application:
             folder=start,
         )
 
+    @classmethod
+    def installed(cls, package: str) -> Application:
+        """Return the application that an installed package is; raises NoApplicationError."""
+        try:
+            spec = importlib.util.find_spec(package) if package.isidentifier() else None
+        except ValueError:
+            spec = None
+        for place in (spec and spec.submodule_search_locations) or ():
+            if (Path(place) / UP_FILE).is_file():
+                return cls.at(Path(place))
+        text = f"no application {package[:80]!r} is installed in {sys.prefix}"
+        raise NoApplicationError(text, code="not_installed", package=package)
+
     def make_importable(self) -> None:
         """Make ``import <package>`` find this folder, whatever its name and location."""
         known = sys.modules.get(self.package)

@@ -48,9 +48,13 @@ class Limited:
         self._interval_s = interval_s
         self._limit = limit
         self._suppressed: dict[Hashable, _Suppressed] = {}
+        self._is_stopped = False
 
     def log(self, emit: Emit, format_: str, *, key: Hashable = None, **fields: Any) -> None:
         """Log by `emit` (a logger's method), now or counted; the format is the default key."""
+        if self._is_stopped:
+            emit(format_, **fields)
+            return
         key = format_ if key is None else key
         if key not in self._suppressed and len(self._suppressed) >= self._limit:
             key = _OTHERS
@@ -63,7 +67,8 @@ class Limited:
             held.more += 1
 
     def stop(self) -> None:
-        """Report the suppressed events and reset."""
+        """Report the suppressed events; later ones pass, and leave no timer behind."""
+        self._is_stopped = True
         held_back, self._suppressed = self._suppressed, {}
         for held in held_back.values():
             held.call.cancel()

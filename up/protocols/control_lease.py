@@ -109,6 +109,12 @@ class ControlLease(Generic[T]):
         self._feed(Input.ACQUIRE)
         return None if displaced is owner else displaced
 
+    def reserve(self, token: str, now_s: float) -> None:
+        """Reserve a free lease for a token, as if its owner had just disconnected."""
+        self._feed(Input.ACQUIRE)
+        self.owner, self.token, self._last_rx_s = None, token, now_s
+        self._feed(Input.DISCONNECT)
+
     def disconnect(self) -> None:
         """Remove the owner; its token resumes the lease until ALIVE_S after its last byte.
 

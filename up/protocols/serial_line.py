@@ -8,8 +8,10 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from twisted.internet.defer import Deferred, succeed
 from twisted.internet.interfaces import IReadWriteDescriptor
 from twisted.internet.main import CONNECTION_LOST
+from twisted.internet.task import deferLater
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
@@ -21,6 +23,8 @@ MAX_DELAY_S = 1.6
 """Between attempts to open; below the 2 s within which a restored line is used again."""
 
 PENDING_LIMIT = 1024
+LAST_FRAME_S = 0.1
+"""For a last frame, and what waits before it, at 115200 baud."""
 _READ_SIZE = 65536
 _UNPLUGGED = "the port was unplugged or closed by the other side"
 
@@ -104,6 +108,13 @@ class SerialLine:
         self._is_started = False
         cancel(self._timer)
         self._close()
+
+    def end(self, frame: bytes) -> Deferred[None]:
+        """Send a last frame, and close the port when it is out: closing discards unsent bytes."""
+        if not self.write(frame):
+            self.stop()
+            return succeed(None)
+        return deferLater(self._reactor, LAST_FRAME_S, self.stop)
 
     def write(self, frame: bytes) -> bool:
         """Send a frame in order; False: the line is closed or stuck, the frame dropped, counted."""

@@ -35,6 +35,8 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         self._reading: Reading[_T] | None = None
         self._arbiter = SourceArbiter(self.MAX_AGE_S, self._on_switch)
         self._priorities: Mapping[str, int] = {}
+        self.is_doubted: Callable[[str], bool] = lambda _source: False
+        """Whether the data of a source are left out now, so that another one is followed."""
 
     def on_init(self) -> None:
         wanted = self.config.order_of(self.READING)
@@ -44,12 +46,15 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
 
     @property
     def reading(self) -> Reading[_T] | None:
-        """Return the newest reading of the followed source, however old; None before the first."""
+        """Return the newest reading of the followed source, however old; None before the first.
+
+        A subclass that computes it on demand overrides ``fresh`` too.
+        """
         return self._reading
 
     def fresh(self, max_age_s: float) -> Reading[_T] | None:
         """Return the newest reading when it is valid and at most ``max_age_s`` old."""
-        reading = self.reading
+        reading = self._reading
         if reading is None or not reading.valid or self._seconds() - reading.time_s > max_age_s:
             return None
         return reading
@@ -97,6 +102,9 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
             return
         now_s = self._seconds()
         origin = self.up.command_executor.origin
+        if self.is_doubted(origin.link):
+            self._arbiter.note_left_out(origin.link, now_s)
+            return
         valid = self._is_valid(command)
         if valid:
             priority = self._priorities.get(origin.link, origin.priority)

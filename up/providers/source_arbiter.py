@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -47,6 +48,12 @@ class SourceArbiter:
         known = self._sources.get(source)
         if known is not None:
             known.good_since_s = now_s
+
+    def note_left_out(self, source: str, now_s: float) -> None:
+        """Note data that their user leaves out: the source is not fresh, whatever it sends."""
+        known = self._sources.get(source)
+        if known is not None:
+            known.newest_s, known.good_since_s = -math.inf, now_s
 
     def _takes_over(self, source: str, candidate: _Source, now_s: float) -> bool:
         current = self._sources.get(self.current)

@@ -1,23 +1,44 @@
-"""Builds the firmware by its Makefile, one process at a time."""
+"""Builds the firmware by its Makefile, one process at a time.
+
+An installed rig carries the built firmware, which is used unchanged, and the sources for other
+builds, which are made in a copy in the user's cache.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import fcntl
+import functools
+import hashlib
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 from up_rig.errors import RigError, RigUnavailableError
-from up_rig.library import SOURCES
+from up_rig.library import SOURCES, cache_folder
 
-ARDUINO = SOURCES.parents[2]
+SHIPPED = Path(__file__).with_name("arduino")
+"""In an installed rig: the sources, and ``release/raspilot.elf``."""
+
+
+def _folder() -> Path:
+    """Return the folder ``arduino`` of the source tree, or where an installed rig has its copy."""
+    if not SHIPPED.is_dir():
+        return SOURCES.parents[2]
+    files = sorted(each for each in SHIPPED.rglob("*") if each.is_file())
+    digest = hashlib.sha256(b"\0".join(each.read_bytes() for each in files)).hexdigest()
+    return cache_folder() / f"arduino-{digest[:16]}"
+
+
+ARDUINO = _folder()
 CORE = Path("/usr/share/arduino/hardware/arduino/avr/cores/arduino/Arduino.h")
 AVR_LIBC = Path("/usr/lib/avr/include/avr/io.h")
 PACKAGES = "make gcc-avr avr-libc arduino-core-avr"
 MAX_BUILD_S = 900.0
 NO_SOURCES = f"the firmware's sources are not here: there is no {ARDUINO / 'raspilot'}"
+SHIPPED_FIRMWARE = SHIPPED / "release" / "raspilot.elf"
 
 
 class BuildError(RigError):
@@ -28,7 +49,13 @@ class BuildError(RigError):
 
 
 def has_sources() -> bool:
-    """Return whether this is a source tree: an installed rig has no firmware with it."""
+    """Return whether the firmware's sources are here; an installed rig makes its copy of them."""
+    if SHIPPED.is_dir() and not ARDUINO.exists():
+        # Of several processes the first one's copy stays.
+        with contextlib.suppress(OSError):
+            ARDUINO.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(dir=ARDUINO.parent) as folder:
+                shutil.copytree(SHIPPED, Path(folder, "arduino")).rename(ARDUINO)
     return (ARDUINO / "raspilot" / "raspilot.ino").is_file()
 
 
@@ -88,11 +115,16 @@ def _lock(name: str) -> Iterator[int]:
         yield lock.fileno()
 
 
+@functools.cache
 def build_firmware(*options: str) -> Path:
     """Return the ELF file of the firmware, built if need be; options such as ``BAUD=9600``.
 
-    Raises ``BuildError``, and ``RigUnavailableError`` without the toolchain.
+    An installed rig has it built already, without options. A process looks at the sources once: all
+    its flights have the same firmware. Raises ``BuildError``, and ``RigUnavailableError`` without
+    the toolchain.
     """
+    if not options and SHIPPED_FIRMWARE.is_file():
+        return SHIPPED_FIRMWARE
     lacking = missing_toolchain()
     if lacking is not None:
         raise RigUnavailableError(lacking)
@@ -100,3 +132,10 @@ def build_firmware(*options: str) -> Path:
     folder = "build" + "".join(f"-{chosen[name]}" for name in ("BAUD", "BOARD") if name in chosen)
     make(*options, f"{folder}/raspilot.elf")
     return ARDUINO / folder / "raspilot.elf"
+
+
+@functools.cache
+def build_host_library() -> Path:
+    """Return the firmware built for this computer, as ``build_firmware``; raises as ``make``."""
+    make("host-library")
+    return ARDUINO / "build" / "libraspilot.so"

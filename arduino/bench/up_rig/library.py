@@ -74,8 +74,12 @@ def library_path() -> Path:
     build = SOURCES.parents[2] / "build"
     if (SOURCES.parents[2] / "bench").is_dir() and os.access(SOURCES.parents[2], os.W_OK):
         return build / "librig.so"
-    cache_folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
-    return cache_folder / "up_rig" / "librig.so"
+    return cache_folder() / "librig.so"
+
+
+def cache_folder() -> Path:
+    """Return the folder for everything that an installed rig builds."""
+    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "up_rig"
 
 
 def build_library() -> Path:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from arduino_cog.config import FLIGHT_BATTERY
 from up.cogs.up_registrant import UpRegistrant
 from up.flight_controller.pids_file import PIDS
 from up.flight_controller.profile_wire import AIRFRAME
@@ -11,4 +10,4 @@ from up.flight_controller.profile_wire import AIRFRAME
 class Registrant(UpRegistrant):
     """Registers the Arduino cog."""
 
-    CONFIG_FILES = (PIDS, AIRFRAME, FLIGHT_BATTERY)
+    CONFIG_FILES = (PIDS, AIRFRAME)

@@ -190,7 +190,8 @@ class Uplink:
         except (ConnectError, OSError, HostNotFoundError, TimeoutError) as error:
             self._failed(address)
             reason = str(error).strip().rstrip(".") or type(error).__name__
-            self._report("no_connection", f"no connection: {reason}")
+            code = getattr(error, "code", "no_connection")
+            self._report(code, f"no connection: {reason}")
             raise
         except TLSError as fault:
             self._failed(address)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import socket
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
-from twisted.internet.error import ConnectError, getConnectError
+from twisted.internet.error import ConnectError
 from twisted.internet.protocol import Factory, Protocol
 from twisted.python.failure import Failure
 
@@ -25,6 +26,23 @@ ATTEMPT_LIMIT_S = 2.0
 """Of an attempt, TLS included, while another path is healthy."""
 PROBE_BYTES = 232
 """IP bytes of opening and resetting a connection."""
+
+
+class InterfaceError(ConnectError):
+    """A network interface that cannot carry the link; its text advises the user."""
+
+    def __init__(self, name: str, error: OSError) -> None:
+        super().__init__(error.errno)  # type: ignore[no-untyped-call]
+        is_missing = error.errno == errno.ENODEV
+        self.code = "interface_missing" if is_missing else "interface_unusable"
+        what = "does not exist now" if is_missing else f"cannot be used ({error.strerror})"
+        self._text = (
+            f"the network interface {name} {what}: plug it in, or correct interfaces in"
+            " mission_control.yml ('ip link' lists those of this computer)"
+        )
+
+    def __str__(self) -> str:
+        return self._text
 
 
 class OnInterface:
@@ -48,8 +66,7 @@ class OnInterface:
         try:
             handle.setsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, self._name.encode())
         except OSError as error:
-            reason = f"interface {self._name}: {error.strerror}"
-            client.failIfNotConnected(getConnectError((error.errno, reason)))
+            client.failIfNotConnected(InterfaceError(self._name, error))
         return connector
 
 

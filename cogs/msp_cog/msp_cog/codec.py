@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import reduce
 from operator import xor
 
-_REQUEST, _REPLY, _ERROR = b"$M<", b"$M>", b"$M!"
+REQUEST, REPLY, ERROR = b"$M<", b"$M>", b"$M!"
 _HEADER = 5
 MAX_PAYLOAD = 254
-"""255 announces a longer frame of another format, which no request of this cog gets."""
+"""255 announces a longer frame of another format, which this cog neither requests nor sends."""
 
 
 @dataclass(slots=True)
@@ -22,19 +22,20 @@ class MspCounters:
     dropped_bytes: int = 0
 
 
-def encode(number: int, payload: bytes = b"") -> bytes:
-    """Return a request; ValueError for a payload of more than 254 bytes."""
+def encode(number: int, payload: bytes = b"", head: bytes = REQUEST) -> bytes:
+    """Return a frame, by default a request; ValueError for a payload of more than 254 bytes."""
     if len(payload) > MAX_PAYLOAD:
         raise ValueError(f"a payload of {len(payload)} bytes, more than {MAX_PAYLOAD}")
     body = bytes((len(payload), number)) + payload
-    return _REQUEST + body + bytes((reduce(xor, body),))
+    return head + body + bytes((reduce(xor, body),))
 
 
 class MspDecoder:
-    """Finds replies in a stream of bytes; other bytes are dropped and counted."""
+    """Finds replies, or what ``heads`` names, in a stream; other bytes are dropped and counted."""
 
-    def __init__(self) -> None:
+    def __init__(self, heads: tuple[bytes, ...] = (REPLY, ERROR)) -> None:
         self.counters = MspCounters()
+        self._heads = heads
         self._buffer = b""
 
     def reset(self) -> None:
@@ -42,7 +43,7 @@ class MspDecoder:
         self._buffer = b""
 
     def feed(self, data: bytes) -> list[tuple[int, bytes]]:
-        """Return type and payload of each whole reply; a refused request gives none."""
+        """Return type and payload of each whole frame; a refused request gives none."""
         buffer, at = self._buffer + data, 0
         found: list[tuple[int, bytes]] = []
         counters = self.counters
@@ -53,7 +54,7 @@ class MspDecoder:
             counters.dropped_bytes += start - at
             at = start
             head = buffer[at : at + 3]
-            if len(head) == 3 and head not in (_REPLY, _ERROR):
+            if len(head) == 3 and head not in self._heads:
                 at += 1
                 counters.dropped_bytes += 1
                 continue
@@ -68,7 +69,7 @@ class MspDecoder:
                 counters.dropped_bytes += 1
                 continue
             at = end
-            if head == _ERROR:
+            if head == ERROR:
                 counters.refused += 1
             else:
                 counters.frames += 1

@@ -7,11 +7,12 @@ import csv
 import io
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from up.cli.cli_error import CliError
-from up_flightlog.cli.open_flight import flight_of, unknown_topic
-from up_flightlog.cli.terminal import echo, warn
+from up_flightlog.cli.open_flight import check_topics, flight_of, unknown_topic
+from up_flightlog.cli.terminal import DecodingProgress, echo, warn
 from up_flightlog.export.csv_table import columns_of, topic_rows, wide_rows
 from up_flightlog.export.gpx import gpx_lines
 from up_flightlog.export.kml import kml_lines
@@ -34,11 +35,13 @@ def run(values: argparse.Namespace) -> int:
     if values.format != "csv" and (values.topic or values.rate):
         raise CliError(f"--topic and --rate apply to csv, not to {values.format}", status=2)
     flight = flight_of(values)
+    check_topics(flight, values.topic)
     log = FlightLog.read(flight.paths)
-    if values.format == "csv":
-        _export_csv(log, flight, values)
-    else:
-        _export_track(log, flight, values)
+    with DecodingProgress("exporting", log):
+        if values.format == "csv":
+            _export_csv(log, flight, values)
+        else:
+            _export_track(log, flight, values)
     return 0
 
 
@@ -55,7 +58,7 @@ def _export_track(log: FlightLog, flight: Flight, values: argparse.Namespace) ->
 def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
     for topic in values.topic:
         if topic not in log.topics:
-            raise unknown_topic(topic, log)
+            raise unknown_topic(topic, log.topics)
     topics = list(dict.fromkeys(values.topic))
     if values.rate or not topics:
         topics = topics or [topic for topic in log.topics if topic not in _NOT_IN_A_TABLE]
@@ -85,8 +88,10 @@ def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[lis
         raise CliError(
             f"a table of {log.length_s * rate_hz:.0f} rows is too long: use a lower --rate"
         )
-    columns = columns_of(log.messages(*topics))
-    return wide_rows(log.messages(*topics), columns, log.start_unix_s, log.length_s, rate_hz)
+    # A message that a newer one replaces before the next row is not decoded.
+    read = partial(log.messages, *topics, rate_hz=rate_hz)
+    columns = columns_of(read())
+    return wide_rows(read(), columns, log.start_unix_s, log.length_s, rate_hz)
 
 
 def _csv(rows: Iterable[list[str]]) -> Iterator[str]:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
+import json
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from up.fields import printable
 from up_flightlog.cli.open_flight import flight_of
@@ -24,6 +27,9 @@ def run(values: argparse.Namespace) -> int:
     log = FlightLog.read(flight.paths)
     context = FlightContext(log)
     summary, found = summarise(log, context), findings(log, context)
+    if values.json:
+        echo(json.dumps(document(flight, summary, found), indent=2, default=str))
+        return 0
     echo(_title(flight, log, summary))
     _section("faults", _findings(found))
     _section("flight", _pairs(_figures(summary)))
@@ -41,6 +47,20 @@ def run(values: argparse.Namespace) -> int:
     _section("files", [str(path) for path in flight.paths])
     _section("file problems", [each.text for each in log.problems])
     return 0
+
+
+def document(flight: Flight, summary: FlightSummary, found: Sequence[Finding]) -> dict[str, Any]:
+    """Return the answer for programs: times in seconds of the log, codes of the findings."""
+    names = ("time_s", "level", "code", "subject", "length_s", "text")
+    return {
+        "number": flight.number,
+        "files": [str(path) for path in flight.paths],
+        **dataclasses.asdict(summary),
+        "findings": [
+            {**{name: getattr(each, name) for name in names}, "fields": dict(each.fields)}
+            for each in found
+        ],
+    }
 
 
 def _section(title: str, lines: Sequence[str]) -> None:

@@ -15,8 +15,8 @@ from up.cli.locate import application_of
 from up.fields import printable
 from up.flight_log.flights_folder import default_folder, folder_of
 from up.loading.application import NoApplicationError
-from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import Flight, find_flight
+from up_flightlog.read.log_summary import summary_topics
 
 FOLDER_FILES = "up.flights_folder"
 """The group of entry points by which a recorder names its configuration file, with ``folder``."""
@@ -45,16 +45,32 @@ def flights_folder(values: argparse.Namespace) -> Path:
 
 def flight_of(values: argparse.Namespace) -> Flight:
     """Return the flight that FLIGHT names; raises FlightLogError and ConfigErrors."""
+    return flight_named(values.flight, values)
+
+
+def flight_named(name: str, values: argparse.Namespace) -> Flight:
+    """Return the flight that a name selects, as `flight_of`."""
     # Only a name that is not a path needs the folder, and so a valid configuration.
-    flight = find_flight(values.flight, lambda: flights_folder(values))
+    flight = find_flight(name, lambda: flights_folder(values))
     if sys.stderr.isatty() and flight.size > _LARGE:
         sys.stderr.write(f"reading {len(flight.paths)} files, {flight.size / 1e6:.0f} MB ...\n")
     return flight
 
 
-def unknown_topic(topic: str, log: FlightLog) -> UsageError:
+def check_topics(flight: Flight, named: Iterable[str]) -> None:
+    """Reject unknown topics by the summary of the files, before they are read.
+
+    A name may go on with a field. Raises UsageError; a log without a summary passes.
+    """
+    topics = summary_topics(flight.paths)
+    for name in named if topics is not None else ():
+        if not any(f"{name}.".startswith(f"{topic}.") for topic in topics or ()):
+            raise unknown_topic(name, topics or ())
+
+
+def unknown_topic(topic: str, known: Iterable[str]) -> UsageError:
     """Return the error for a topic that the log does not have."""
-    return _unknown("topic", topic, log.topics, "'up log info' lists all")
+    return _unknown("topic", topic, known, "'up log info' lists all")
 
 
 def unknown_field(field: str, known: Iterable[str]) -> UsageError:

@@ -89,7 +89,7 @@ class OverviewCache:
     def get(self, flight: Flight) -> Overview | None:
         """Return the cached overview of a flight, or None if its files changed."""
         entry = self._entries.get(_key(flight))
-        state = _state(flight)
+        state = state_of(flight)
         if not isinstance(entry, dict) or state is None or entry.get("state") != state:
             return None
         try:
@@ -99,7 +99,7 @@ class OverviewCache:
 
     def put(self, flight: Flight, overview: Overview) -> None:
         """Keep an overview; one with a fault is read again each time."""
-        state = _state(flight)
+        state = state_of(flight)
         if state is not None and overview.fault is None:
             entry = {"state": state, "overview": dataclasses.asdict(overview)}
             self._entries[_key(flight)] = entry
@@ -136,7 +136,8 @@ def _key(flight: Flight) -> str:
     return os.fsencode(flight.paths[0].absolute()).decode("utf-8", "backslashreplace")
 
 
-def _state(flight: Flight) -> list[list[int]] | None:
+def state_of(flight: Flight) -> list[list[int]] | None:
+    """Return size and modification time of each file; None if one is missing."""
     try:
         found = [path.stat() for path in flight.paths]
     except OSError:

@@ -123,6 +123,7 @@ def _add_info(verbs: Any) -> None:
         verbs, "info", "up_flightlog.cli.info_verb", "summarise a flight and its faults"
     )
     add_flight_argument(info)
+    add_json_option(info)
 
 
 def _add_export(verbs: Any) -> None:

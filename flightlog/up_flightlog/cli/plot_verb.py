@@ -9,8 +9,8 @@ from pathlib import Path
 
 from up.cli.cli_error import CliError
 from up.fields import printable
-from up_flightlog.cli.open_flight import flight_of, unknown_field
-from up_flightlog.cli.terminal import echo
+from up_flightlog.cli.open_flight import check_topics, flight_of, unknown_field
+from up_flightlog.cli.terminal import DecodingProgress, echo
 from up_flightlog.export.csv_table import flat
 from up_flightlog.export.output import file_exists, write_file
 from up_flightlog.findings.flight_context import FlightContext
@@ -20,6 +20,7 @@ from up_flightlog.plots.overview import DPI, Overview, overview_png
 from up_flightlog.plots.theme import DAYLIGHT
 from up_flightlog.plots.timeline import draw_timeline, timeline_height_in
 from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.schema_fields import unit_of
 from up_flightlog.read.spans import duration_text
 from up_flightlog.report.content import report_content
 from up_flightlog.report.formatting import start_text
@@ -37,13 +38,15 @@ def run(values: argparse.Namespace) -> int:
     if not has_matplotlib():
         raise CliError(MISSING)
     flight = flight_of(values)
-    log = FlightLog.read(flight.paths)
     path = values.output or Path(f"{flight.name}.png")
     if path.suffix.lower() != ".png":
         raise CliError(f"{path}: the name of a picture must end in .png", status=2)
     if not values.force and path.exists():
         raise file_exists(path)
-    png = _fields(log, values.field) if values.field else _overview(log, flight.name)
+    check_topics(flight, values.field)
+    log = FlightLog.read(flight.paths)
+    with DecodingProgress("drawing", log):
+        png = _fields(log, values.field) if values.field else _overview(log, flight.name)
     write_file(path, png, may_overwrite=values.force)
     echo(f"{path}  {len(png) / 1000:.0f} kB")
     return 0
@@ -78,7 +81,7 @@ def _panels(log: FlightLog, fields: Sequence[tuple[str, str]]) -> Iterator[Panel
     """Yield a panel for every unit, so that comparable values share one."""
     by_unit: dict[str, list[tuple[str, str]]] = {}
     for topic, field in fields:
-        unit = _unit(log, topic, field) or field.rpartition(".")[2]
+        unit = unit_of(log.schema(topic), field) or field.rpartition(".")[2]
         by_unit.setdefault(unit, []).append((topic, field))
     for unit, members in by_unit.items():
         curves = []
@@ -111,11 +114,3 @@ def known_fields(log: FlightLog) -> list[str]:
                 if isinstance(value, int | float) and not isinstance(value, bool):
                     found.setdefault(f"{topic}.{path}")
     return list(found)
-
-
-def _unit(log: FlightLog, topic: str, field: str) -> str:
-    schema = log.schema(topic) or {}
-    properties = schema.get("properties")
-    about = properties.get(field) if isinstance(properties, dict) else None
-    unit = about.get("x-unit") if isinstance(about, dict) else None
-    return unit if isinstance(unit, str) else ""

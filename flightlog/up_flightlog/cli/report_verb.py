@@ -9,7 +9,7 @@ from pathlib import Path
 
 from up.fields import printable
 from up_flightlog.cli.open_flight import flight_of
-from up_flightlog.cli.terminal import echo, warn
+from up_flightlog.cli.terminal import DecodingProgress, Progress, echo, warn
 from up_flightlog.export.output import file_exists, make_folder, write_file
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.read.flight_log import FlightLog
@@ -26,7 +26,10 @@ def run(values: argparse.Namespace) -> int:
     """Write the report of a flight."""
     flight = flight_of(values)
     folder = values.output or default_folder(flight)
-    content = report_content(FlightLog.read(flight.paths), flight.name, flight.number)
+    _check_new(folder, may_overwrite=values.force)
+    log = FlightLog.read(flight.paths)
+    with DecodingProgress("analysing", log):
+        content = report_content(log, flight.name, flight.number)
     files = write_report(content, folder, may_overwrite=values.force, on_missing=warn)
     _, sentence = verdict_of(content.summary, content.findings)
     echo(printable(sentence))
@@ -55,13 +58,16 @@ def write_report(
     Without matplotlib the page has text, tables and an SVG track, and ``on_missing`` is called.
     Raises CliError for an existing file or a failed write, FlightLogError.
     """
-    if not may_overwrite and (folder / PAGE).exists():
-        raise file_exists(folder / PAGE)
+    _check_new(folder, may_overwrite=may_overwrite)
     make_folder(folder)
     images: dict[str, ImageSet] = {}
     missing = ""
     try:
-        images = {image.name: image for image in image_sets(content)}
+        with Progress("drawing, picture", len(content.pictures) + 1) as progress:
+            progress.update(1)
+            for number, image in enumerate(image_sets(content), 2):
+                images[image.name] = image
+                progress.update(number)
     except PictureError as error:
         missing = f"No pictures: {error}."
         on_missing(missing)
@@ -73,3 +79,8 @@ def write_report(
         write_file(path, image.wide, may_overwrite=may_overwrite)
         files.append(path)
     return files
+
+
+def _check_new(folder: Path, *, may_overwrite: bool) -> None:
+    if not may_overwrite and (folder / PAGE).exists():
+        raise file_exists(folder / PAGE)

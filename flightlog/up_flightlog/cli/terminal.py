@@ -8,6 +8,7 @@ from typing import Self, TextIO
 
 from up.fields import printable
 from up.output import StatusLine
+from up_flightlog.read.flight_log import FlightLog
 
 _DELAY_S = 0.5
 
@@ -37,6 +38,31 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], right: Sequence[in
         ]
         lines.append("  ".join(parts).rstrip())
     return "\n".join(lines)
+
+
+class DecodingProgress:
+    """Shows how many messages of a log were decoded, as ``text, 120000 messages``.
+
+    Use it as a context around whatever reads the log; it appears as `Progress` does.
+    """
+
+    def __init__(self, text: str, log: FlightLog, stream: TextIO | None = None) -> None:
+        self._text = text
+        self._log = log
+        self._count = 0
+        self._line = StatusLine(stream, period_s=0.1, delay_s=_DELAY_S)
+
+    def _on_decoded(self, count: int) -> None:
+        self._count += count
+        self._line.show(f"{self._text}, {self._count} messages")
+
+    def __enter__(self) -> Self:
+        self._log.on_decoded = self._on_decoded
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._log.on_decoded = None
+        self._line.clear()
 
 
 class Progress:

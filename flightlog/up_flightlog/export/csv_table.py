@@ -18,7 +18,13 @@ _FORMULA = ("=", "+", "-", "@")
 def columns_of(messages: Iterable[LoggedMessage]) -> dict[str, list[str]]:
     """Return the dotted paths of each topic, in the order of first appearance."""
     columns: dict[str, dict[str, None]] = {}
+    seen: dict[str, set[tuple[Any, ...]]] = {}
     for message in messages:
+        # Nearly all messages of a topic have the same keys.
+        shape, shapes = _shape(message.data), seen.setdefault(message.topic, set())
+        if shape in shapes:
+            continue
+        shapes.add(shape)
         paths = columns.setdefault(message.topic, {})
         for path, _ in flat(message.data):
             paths.setdefault(path)
@@ -75,14 +81,26 @@ def _times(time_s: float, start_unix_s: float) -> list[str]:
     return [f"{time_s:.6f}", utc_text(start_unix_s + time_s) or ""]
 
 
-def flat(data: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the values of a message by dotted paths; an empty inner map yields nothing."""
+def flat(data: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """Return the values of a message by dotted paths; an empty inner map yields nothing."""
+    found: list[tuple[str, Any]] = []
+    _add_flat(data, "", found)
+    return found
+
+
+def _add_flat(data: Mapping[str, Any], prefix: str, found: list[tuple[str, Any]]) -> None:
     for key, value in data.items():
-        path = f"{prefix}{key}"
-        if isinstance(value, Mapping):
-            yield from flat(value, f"{path}.")
+        if type(value) is dict:
+            _add_flat(value, f"{prefix}{key}.", found)
         else:
-            yield path, value
+            found.append((prefix + key, value))
+
+
+def _shape(data: Mapping[str, Any]) -> tuple[Any, ...]:
+    """Return the keys of a message, with those of its inner maps."""
+    inner = (_shape(value) for value in data.values() if type(value) is dict)
+    nested = tuple(key for key, value in data.items() if type(value) is dict)
+    return (*data, nested, *inner)
 
 
 def cell(value: Any) -> str:
@@ -90,14 +108,14 @@ def cell(value: Any) -> str:
 
     Text becomes one line; one that a spreadsheet would read as a formula gets an apostrophe first.
     """
+    if type(value) is float:
+        return repr(value) if math.isfinite(value) else ""
     if value is None:
         return ""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
         return str(value)
-    if isinstance(value, float):
-        return repr(value) if math.isfinite(value) else ""
     if not isinstance(value, str):
         value = json.dumps(value, ensure_ascii=False)
     text = printable(value)

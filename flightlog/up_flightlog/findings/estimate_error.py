@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.series import Series, columns, turn
-from up_flightlog.read.source_filter import from_selected_source
+from up_flightlog.read.series import Series, turn
 
 TRUTH = "simulator.truth"
 ORIENTATION = "up.orientation.update"
@@ -27,15 +25,12 @@ class EstimateError:
     worst_s: float
 
 
-def estimate_errors(log: FlightLog) -> Iterator[EstimateError]:
-    """Yield those of roll and pitch; nothing if the log has no truth or no attitude."""
-    if TRUTH not in log.topics or ORIENTATION not in log.topics:
-        return
-    samples = ((each.time_s, each.data) for each in log.messages(TRUTH))
-    truth = columns(samples, [f"{axis}_deg" for axis in AXES])
-    attitude = columns(from_selected_source(log, "orientation", ORIENTATION), AXES)
+def estimate_errors(
+    attitude: Mapping[str, Series], truth: Mapping[str, Series]
+) -> Iterator[EstimateError]:
+    """Yield those of roll and pitch; nothing without truth or attitude."""
     for axis in AXES:
-        off = _errors_deg(attitude[axis], truth[f"{axis}_deg"])
+        off = _errors_deg(attitude[axis], truth[axis])
         if off:
             worst = max(range(len(off.values)), key=lambda at: off.values[at])
             rms_deg = math.sqrt(math.fsum(each * each for each in off.values) / len(off.values))
@@ -45,10 +40,14 @@ def estimate_errors(log: FlightLog) -> Iterator[EstimateError]:
 def _errors_deg(estimate: Series, truth: Series) -> Series:
     """Return the difference between each estimate and the truth within ``_APART_S`` of its time."""
     found = Series()
-    for time_s, value in zip(estimate.times_s, estimate.values, strict=True):
-        true = [truth.at(time_s + apart_s, 0.5) for apart_s in (-_APART_S, 0.0, _APART_S)]
+    around = [
+        truth.each_at([time_s + apart_s for time_s in estimate.times_s], 0.5)
+        for apart_s in (-_APART_S, 0.0, _APART_S)
+    ]
+    for time_s, value, *true in zip(estimate.times_s, estimate.values, *around, strict=True):
+        if None in true:
+            continue
         off = [turn(value - each) for each in true if each is not None]
-        if len(off) == len(true):
-            is_between = min(off) < 0 < max(off) and max(off) - min(off) < 180
-            found.add(time_s, 0.0 if is_between else min(map(abs, off)))
+        is_between = min(off) < 0 < max(off) and max(off) - min(off) < 180
+        found.add(time_s, 0.0 if is_between else min(map(abs, off)))
     return found

@@ -12,14 +12,26 @@ from up.commands import board_status
 from up.commands.board_schema import DATA
 from up.commands.schema_rows import Rule
 from up.flight_log.json_message import number_at, value_at
-from up_flightlog.findings.estimate_error import EstimateError, estimate_errors
+from up_flightlog.findings.estimate_error import (
+    ORIENTATION,
+    TRUTH,
+    EstimateError,
+    estimate_errors,
+)
 from up_flightlog.read.flight_log import FlightLog, LoggedMessage
+from up_flightlog.read.series import Series, columns
+from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.spans import Span, spans_of
 
 TELEMETRY = "up.telemetry.update"
 FLIGHT_STATE = "up.flight.state"
 LINK_STATE = "up.link.state"
 LOG = "log"
+ANGLES = ("roll", "pitch", "yaw")
+TRUTHS = (
+    *("roll_deg", "pitch_deg", "yaw_deg", "altitude_m", "latitude_deg", "longitude_deg"),
+    *("airspeed_m_s", "ground_speed_m_s", "wind_north_m_s", "wind_east_m_s"),
+)
 WARNING, ERROR = 3, 4
 """Levels of foxglove.Log."""
 _CODES = frozenset({"command_refused", "recording_resumed"})
@@ -79,8 +91,20 @@ class FlightContext:
         return [line for line in lines if line.level >= WARNING or line.code in _CODES]
 
     @cached_property
+    def attitude(self) -> dict[str, Series]:
+        """Return the angles of the followed source, deg."""
+        return columns(from_selected_source(self.log, "orientation", ORIENTATION), ANGLES)
+
+    @cached_property
+    def truth(self) -> dict[str, Series]:
+        """Return ground truth by its names; a real flight has none."""
+        found = self.log.messages(TRUTH) if TRUTH in self.log.topics else ()
+        return columns(((each.time_s, each.data) for each in found), TRUTHS)
+
+    @cached_property
     def estimate_errors(self) -> list[EstimateError]:
-        return list(estimate_errors(self.log))
+        truth = {axis.removesuffix("_deg"): series for axis, series in self.truth.items()}
+        return list(estimate_errors(self.attitude, truth))
 
     @cached_property
     def last_telemetry(self) -> dict[str, Any]:

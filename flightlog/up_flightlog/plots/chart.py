@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from operator import sub
 
 MAX_POINTS = 4000
 MAX_VALUE = 1e15
@@ -29,6 +30,8 @@ class Curve:
     width: float = 1.3
     is_step: bool = False
     gap_s: float | None = None
+    is_ready: bool = False
+    """Whether its points are few and have their breaks already: see `ready`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +86,24 @@ class Background:
 
 def drawable(curve: Curve, limit: int = MAX_POINTS) -> tuple[list[float], list[float]]:
     """Return the points to draw: few, with every peak kept and gaps left open."""
+    if curve.is_ready:
+        return list(curve.times_s), list(curve.values)
     return thinned(*broken(curve.times_s, curve.values, curve.gap_s), limit)
+
+
+def ready(panels: Iterable[Panel]) -> list[Panel]:
+    """Return the panels with only the points that are drawn, for several pictures of them."""
+    return [
+        replace(
+            panel,
+            curves=[
+                replace(each, times_s=points[0], values=points[1], is_ready=True)
+                for each in panel.curves
+                for points in [drawable(each)]
+            ],
+        )
+        for panel in panels
+    ]
 
 
 def is_drawable(value: float) -> bool:
@@ -96,6 +116,9 @@ def broken(
 ) -> tuple[list[float], list[float]]:
     """Return the points with a break (nan) at every gap of ``gap_s``."""
     limit_s = usual_gap_s(times_s) if gap_s is None else gap_s
+    is_unbroken = max(map(sub, times_s[1:], times_s), default=0.0) <= limit_s
+    if is_unbroken and is_drawable(sum(map(abs, values))):
+        return list(times_s), list(values)
     found_s: list[float] = []
     found: list[float] = []
     last_s = math.inf
@@ -125,7 +148,12 @@ def thinned(
         return list(times_s), list(values)
     width = math.ceil(2 * len(values) / limit)
     chosen: list[int] = []
+    is_whole = not math.isnan(sum(values))
     for begin in range(0, len(values), width):
+        if is_whole:
+            part = values[begin : begin + width]
+            chosen += sorted({begin + part.index(min(part)), begin + part.index(max(part))})
+            continue
         stretch = range(begin, min(begin + width, len(values)))
         known = [at for at in stretch if not math.isnan(values[at])]
         # One open point is enough to break the line in a stretch with a gap.

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from up.flight_log.json_message import decode, number_at
+from up.flight_log.json_message import decode_all, number_at
 from up.flight_log.mcap_format import FlightLogError
 from up_flightlog.read.log_files import LogFiles
 from up_flightlog.read.log_index import MAX_PARTS, LogIndex
@@ -16,6 +18,8 @@ from up_flightlog.read.log_parts import Attachment, PartReader, TopicInfo
 from up_flightlog.read.problems import LogProblem
 
 _NS = 1e-9
+_FIRST_BATCH, _BATCH = 8, 64
+"""Messages decoded together; a reader that wants the first one only waits for few."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +43,8 @@ class FlightLog:
     def __init__(self, paths: Sequence[Path], index: LogIndex, parts: Sequence[PartReader]) -> None:
         self.paths = list(paths)
         self.topics: dict[str, int] = index.counts()
+        self.on_decoded: Callable[[int], object] | None = None
+        """Called with the number of messages of each batch, for a display of progress."""
         self.metadata: dict[str, dict[str, str]] = {}
         self.attachments: dict[str, Attachment] = {}
         self.is_complete = all(part.is_complete for part in parts)
@@ -97,14 +103,17 @@ class FlightLog:
             return None
         return schema if isinstance(schema, dict) else None
 
-    def messages(self, *topics: str, since_s: float = 0.0) -> Iterator[LoggedMessage]:
+    def messages(
+        self, *topics: str, since_s: float = 0.0, rate_hz: float | None = None
+    ) -> Iterator[LoggedMessage]:
         """Yield the messages of these topics (default: all) in the order of time.
 
+        With ``rate_hz`` only the newest one of each topic at each multiple of that period.
         A message that is not a JSON object is counted in ``problems`` and left out. Raises
         FlightLogError when a file can no longer be read.
         """
         names, times, start_ns = self._names, self._index.times_ns, self._start_ns
-        for position, number, data in self._decoded(topics, since_s):
+        for position, number, data in self._decoded(topics, since_s, rate_hz):
             yield LoggedMessage(names[number], (times[position] - start_ns) * _NS, data)
 
     def series(self, topic: str, field: str) -> tuple[list[float], list[float]]:
@@ -144,24 +153,50 @@ class FlightLog:
             yield (before - start_ns) * _NS, (times[-1] - before) * _NS
 
     def _decoded(
-        self, topics: Sequence[str], since_s: float
+        self, topics: Sequence[str], since_s: float, rate_hz: float | None = None
     ) -> Iterator[tuple[int, int, dict[str, Any]]]:
         index = self._index
         since_ns = self._start_ns + round(since_s / _NS) if since_s > 0 else 0
         unread: list[Callable[[int, str], None] | None] = [None] * len(self._names)
         encodings = [self._infos[name].is_json for name in self._names]
+        positions: Iterator[int] = (
+            each for each in index.positions(topics, since_ns) if encodings[index.name_of(each)]
+        )
+        if rate_hz is not None:
+            positions = self._newest(positions, rate_hz)
         with LogFiles(self.paths) as files:
-            for position in index.positions(topics, since_ns):
-                number = index.name_of(position)
-                if not encodings[number]:
-                    continue
-                try:
-                    yield position, number, decode(files.read(*index.place_of(position)))
-                except ValueError as error:
+            size = _FIRST_BATCH
+            while batch := list(islice(positions, size)):
+                size = _BATCH
+                if self.on_decoded is not None:
+                    self.on_decoded(len(batch))
+                raw = [files.read(*index.place_of(each)) for each in batch]
+                for position, data in zip(batch, decode_all(raw), strict=True):
+                    number = index.name_of(position)
+                    if not isinstance(data, ValueError):
+                        yield position, number, data
+                        continue
                     add = unread[number]
                     if add is None:
                         add = unread[number] = self._infos[self._names[number]].add_unread
-                    add(position, str(error))
+                    add(position, str(data))
+
+    def _newest(self, positions: Iterable[int], rate_hz: float) -> Iterator[int]:
+        """Yield the last position of each topic before each tick; ticks are k / rate_hz."""
+        times, start_ns, name_of = self._index.times_ns, self._start_ns, self._index.name_of
+        newest: dict[int, int] = {}
+        tick_s, step = -1.0, 0
+        for position in positions:
+            time_s = (times[position] - start_ns) * _NS
+            if time_s > tick_s:
+                yield from sorted(newest.values())
+                newest.clear()
+                step = math.floor(time_s * rate_hz)
+                while step / rate_hz < time_s:
+                    step += 1
+                tick_s = step / rate_hz
+            newest[name_of(position)] = position
+        yield from sorted(newest.values())
 
     def _add(self, part: PartReader) -> None:
         self._file_problems += part.problems

@@ -47,6 +47,25 @@ class Series:
         low, high = self.values[after - 1], self.values[after]
         return low + (high - low) * (time_s - low_s) / (high_s - low_s)
 
+    def each_at(self, times_s: Iterable[float], within_s: float) -> list[float | None]:
+        """Return `at` of each of the times, which rise: in one walk along the series."""
+        known_s, values = self.times_s, self.values
+        last = len(known_s) - 1
+        found: list[float | None] = []
+        after = 0
+        for time_s in times_s:
+            while after < last and known_s[after] < time_s:
+                after += 1
+            if after > 0 and known_s[after - 1] < time_s < known_s[after]:
+                low_s, high_s = known_s[after - 1], known_s[after]
+                low = values[after - 1]
+                share = (time_s - low_s) / (high_s - low_s)
+                is_near = high_s - low_s <= within_s
+                found.append(low + (values[after] - low) * share if is_near else None)
+            else:
+                found.append(self.at(time_s, within_s))
+        return found
+
 
 class Columns:
     """Collects a series for each field (dotted paths) of its messages."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -31,12 +31,18 @@ class Frame:
     beacon: int | None = None
 
 
-def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Iterator[Frame]:
+def frames(
+    log: FlightLog,
+    period_s: float = 0.1,
+    since_s: float = 0.0,
+    without: Collection[str] = (),
+) -> Iterator[Frame]:
     """Yield the telemetry in the order of time (docs/protocols.md 6).
 
     Logged telemetry is returned unchanged. Without it (no subscriber, or no link), a frame is built
     every ``period_s`` from the Commands, with the ages of that moment. ``since_s`` skips the time
-    before it. Raises FlightLogError when a file can no longer be read.
+    before it; built frames lack the readings of the topics ``without``. Raises FlightLogError when
+    a file can no longer be read.
     """
     if _is_all_there(log):
         for message in log.messages(TELEMETRY, since_s=since_s):
@@ -46,7 +52,8 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
     state = FrameState(SourceFilter(log), home)
     step_s = max(period_s, _MIN_PERIOD_S)
     due_s = newest_s = logged_s = -1.0
-    for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):
+    topics = [topic for topic in (TELEMETRY, *TOPICS) if topic not in without]
+    for message in log.messages(*topics, since_s=max(0.0, since_s - _WARM_UP_S)):
         now_s = message.time_s
         # After recent telemetry, silence in all topics means that the program stood still.
         limit_s = MISSING_S if newest_s - logged_s < MISSING_S else _SILENT_S

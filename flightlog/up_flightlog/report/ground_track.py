@@ -34,6 +34,16 @@ def track_view(data: ReportData, marks: Sequence[float]) -> TrackView | None:
     return TrackView(_path(segments, home, log.start_unix_s), truth, _wind(data), marks)
 
 
+def offsets_m(
+    latitude_deg: float, longitude_deg: float, home_latitude_deg: float, home_longitude_deg: float
+) -> tuple[float, float]:
+    """Return a position as metres east and north of home."""
+    east_deg = (longitude_deg - home_longitude_deg + 180) % 360 - 180
+    narrow = math.cos(math.radians(home_latitude_deg))
+    north_deg = latitude_deg - home_latitude_deg
+    return east_deg * _METRES_A_DEGREE * narrow, north_deg * _METRES_A_DEGREE
+
+
 def place_error_m(data: ReportData) -> Series:
     """Return the distance (m) of each measured position from the true one at its time."""
     latitude, longitude = data.truth["latitude_deg"], data.truth["longitude_deg"]
@@ -52,7 +62,6 @@ def _path(segments: Iterable[Sequence[TrackPoint]], home: TrackPoint, start_unix
     """Return the segments as one path, broken (nan) between them; long ones are thinned."""
     segments = list(segments)
     every = max(1, sum(map(len, segments)) // _MAX_POINTS)
-    narrow = math.cos(math.radians(home.latitude_deg))
     times_s: list[float] = []
     east_m: list[float] = []
     north_m: list[float] = []
@@ -62,10 +71,11 @@ def _path(segments: Iterable[Sequence[TrackPoint]], home: TrackPoint, start_unix
             east_m.append(math.nan)
             north_m.append(math.nan)
         for point in [*segment[:-1:every], segment[-1]]:
-            east_deg = (point.longitude_deg - home.longitude_deg + 180) % 360 - 180
             times_s.append(point.unix_s - start_unix_s)
-            east_m.append(east_deg * _METRES_A_DEGREE * narrow)
-            north_m.append((point.latitude_deg - home.latitude_deg) * _METRES_A_DEGREE)
+            at = (point.latitude_deg, point.longitude_deg)
+            point_m = offsets_m(*at, home.latitude_deg, home.longitude_deg)
+            east_m.append(point_m[0])
+            north_m.append(point_m[1])
     return Path(times_s, east_m, north_m)
 
 

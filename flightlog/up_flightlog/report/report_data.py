@@ -9,8 +9,8 @@ from itertools import pairwise
 from typing import Any
 
 from up.flight_log.origin_text import KEY, link_and_role
-from up_flightlog.findings.estimate_error import ORIENTATION, TRUTH
-from up_flightlog.findings.flight_context import FlightContext
+from up_flightlog.findings.estimate_error import ORIENTATION
+from up_flightlog.findings.flight_context import ANGLES, FlightContext
 from up_flightlog.plots.chart import Band
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.series import Columns, Series, columns
@@ -21,13 +21,8 @@ from up_flightlog.report.demand import DemandSeries
 STICKS, SERVOS = "up.rx.update", "up.servo.update"
 STATUS, STATE = "arduino.status", "up.flight.state"
 ALTITUDE, LOCATION, LINK_STATE = "up.altitude.change", "up.location.update", "up.link.state"
-ANGLES = ("roll", "pitch", "yaw")
 CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
 INPUTS = (*CHANNELS, "aux1", "aux2")
-TRUTHS = (
-    *("roll_deg", "pitch_deg", "yaw_deg", "altitude_m", "latitude_deg", "longitude_deg"),
-    *("airspeed_m_s", "ground_speed_m_s", "wind_north_m_s", "wind_east_m_s"),
-)
 FRAME_FIELDS = (
     *(f"orientation.{name}" for name in ANGLES),
     *(f"rx.{name}" for name in INPUTS),
@@ -66,7 +61,7 @@ def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
     read = partial(_messages, log)
     known, blocked = _from_frames(log)
     followed_by = partial(from_selected_source, log)
-    attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
+    attitude = context.attitude
     sticks, servos = columns(read(STICKS), INPUTS), columns(read(SERVOS), CHANNELS)
     altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
     wanted = (each for each in read(ALTITUDE) if each[1].get("mode") == "required")
@@ -81,7 +76,7 @@ def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
         altitude=altitude["altitude"] or known["altitude"],
         required_altitude=columns(wanted, ("altitude",))["altitude"],
         speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
-        truth=columns(read(TRUTH), TRUTHS),
+        truth=context.truth,
         bands=list(bands_of(context)),
         blocked=blocked,
         silences=_silences(log),
@@ -111,10 +106,11 @@ def _messages(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], Series]:
     """Return the series of telemetry, and how often the event loop was blocked.
 
-    The frames of an hour would take too much memory together: each is read and released.
+    The frames of an hour would take too much memory together: each is read and released. Frames
+    that are built from Commands lack the readings that the report takes from those Commands.
     """
     found, blocked = Columns(FRAME_FIELDS), Series()
-    for frame in frames(log):
+    for frame in frames(log, without=(ORIENTATION, STICKS, SERVOS)):
         found.add(frame.time_s, frame.data)
         counters = frame.data.get("counters")
         reactor = counters.get("reactor") if isinstance(counters, dict) else None

@@ -28,6 +28,7 @@ from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import LinkSnapshot
+from up_ground.web.fleet import row_of
 from up_ground.web.messages import PageFault, Reader
 from up_ground.web.plan_service import PlanService
 from up_ground.web.proxy_lease import ProxyLease
@@ -76,7 +77,7 @@ class AircraftSession(AircraftSource):
             lambda message: subscribers.notify(name, message),
             self._report,
         )
-        self.monitor = EventMonitor(name, lambda message: subscribers.notify(name, message))
+        self.monitor = EventMonitor(name, self._on_monitor)
         self._track = Track()
         self._home = Home()
         # Actions of pages are events, but at a limited rate.
@@ -195,6 +196,9 @@ class AircraftSession(AircraftSource):
             "home": self._home.position(),
         }
 
+    def row(self, now_s: float) -> dict[str, Any]:
+        return row_of(self.name, self.telemetry, self.monitor.alarm_rows(), now_s)
+
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
         if action == "give":
             taker = None if to is None else self._subscribers.get(to)
@@ -229,6 +233,11 @@ class AircraftSession(AircraftSource):
 
     def on_gone(self, page: ClientSession) -> None:
         self.control.on_gone(page)
+
+    def _on_monitor(self, message: dict[str, Any]) -> None:
+        self._subscribers.notify(self.name, message)
+        if message["type"] == "alarms":
+            self._subscribers.on_alarms()
 
     def _on_tick(self) -> None:
         self._tick = self._reactor.callLater(TICK_S, self._on_tick)

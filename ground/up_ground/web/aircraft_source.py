@@ -34,6 +34,10 @@ class AircraftSource(ABC):
     @abstractmethod
     def status(self, page: ClientSession) -> dict[str, Any]: ...
 
+    def row(self, now_s: float) -> dict[str, Any]:
+        """Return the aircraft's row of the message `fleet`."""
+        return {"name": self.name}
+
     @abstractmethod
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None: ...
 

@@ -26,6 +26,7 @@ from up_ground.web.client_session import (
     admit_page,
     message_bytes,
 )
+from up_ground.web.fleet import FleetSummary
 from up_ground.web.messages import (
     MAX_MESSAGE_BYTES,
     MAX_PLAN_BYTES,
@@ -74,6 +75,7 @@ class ClientHub:
         tiles: Mapping[str, Any] | None = None,
         catalogue: Mapping[str, Any] | None = None,
         is_replay: bool = False,
+        has_docs: bool = False,
     ) -> None:
         self.fleet: dict[str, AircraftSource] = {}
         self._clock = clock
@@ -82,11 +84,13 @@ class ClientHub:
         self._tiles = tiles
         self._catalogue = None if catalogue is None else message_bytes(catalogue)
         self._is_replay = is_replay
+        self._has_docs = has_docs
         self._connections: dict[PageLink, _Connection] = {}
         self._pages: dict[int, ClientSession] = {}
         self._timers: dict[int, Timer] = {}
         self._number = 0
         self._beat: Timer | None = None
+        self._summary = FleetSummary(clock, self.fleet, self._send_fleet)
         self._all_closed: Deferred[None] | None = None
 
     def start(self) -> None:
@@ -95,6 +99,7 @@ class ClientHub:
     async def stop(self) -> None:
         """Close every page's link; returns when they are closed, after a second at most."""
         cancel(self._beat, *self._timers.values())
+        self._summary.stop()
         if self._connections:
             self._all_closed = Deferred()
             for link in list(self._connections):
@@ -126,6 +131,10 @@ class ClientHub:
     def send_status(self, aircraft: str) -> None:
         for page in self._pages.values():
             self._send_status(page, self.fleet[aircraft])
+
+    def on_alarms(self) -> None:
+        """Send all pages the new alarms of an aircraft, which few of them may watch."""
+        self._summary.on_alarms()
 
     def sign_out(self, token: str) -> None:
         """End a session; its pages lose control, and connect again to watch."""
@@ -327,6 +336,7 @@ class ClientHub:
                 "denial": None if denial is None else {"code": denial.code, "text": denial.text},
                 "tiles": self._tiles,
                 "is_replay": self._is_replay,
+                "has_docs": self._has_docs,
                 "sent_ms": self._now_ms(),
                 "max_message": max_bytes,
             }
@@ -392,4 +402,11 @@ class ClientHub:
             self.sessions.use(page.session)
         for aircraft in self.fleet.values():
             aircraft.on_second()
-            self.send_status(aircraft.name)
+        for page in self.all():
+            if page.watched:
+                self._send_status(page, self.fleet[page.watched])
+        self._summary.send()
+
+    def _send_fleet(self, message: Make) -> None:
+        for page in self._pages.values():
+            page.send_latest("fleet", message)

@@ -39,14 +39,34 @@ def message_bytes(fields: Mapping[str, Any]) -> bytes:
     return text_frame(_ENCODER.encode(fields).encode("ascii"))
 
 
-class FrameMessage:
-    """A frame of telemetry: encoded to JSON once for all pages, at the time of sending.
+class AgedMessage:
+    """A message with its age at the time of sending, encoded to JSON once for all pages.
 
-    ``age_s`` returns its age at a time ``now_s`` of the monotonic clock. ``time_s``: its time in
-    a recorded flight.
+    ``age_s`` returns its age at a time ``now_s`` of the monotonic clock.
     """
 
     __slots__ = ("_age_s", "_body", "_now_s")
+
+    def __init__(
+        self,
+        fields: Mapping[str, Any],
+        age_s: Callable[[float], float],
+        now_s: Callable[[], float],
+    ) -> None:
+        self._body = _ENCODER.encode(fields)[:-1].encode("ascii") + b',"age_ms":'
+        self._age_s = age_s
+        self._now_s = now_s
+
+    def __call__(self) -> bytes:
+        now_s = self._now_s()
+        age_ms, sent_ms = self._age_s(now_s) * 1000, now_s * 1000
+        return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))
+
+
+class FrameMessage(AgedMessage):
+    """A frame of telemetry; ``time_s``: its time in a recorded flight."""
+
+    __slots__ = ()
 
     def __init__(
         self,
@@ -65,14 +85,7 @@ class FrameMessage:
         }
         if time_s is not None:
             fields["time_s"] = round(time_s, 3)
-        self._body = _ENCODER.encode(fields)[:-1].encode("ascii") + b',"age_ms":'
-        self._age_s = age_s
-        self._now_s = now_s
-
-    def __call__(self) -> bytes:
-        now_s = self._now_s()
-        age_ms, sent_ms = self._age_s(now_s) * 1000, now_s * 1000
-        return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))
+        super().__init__(fields, age_s, now_s)
 
 
 class PageSendBuffer(BaseOutput):

@@ -101,12 +101,14 @@ class Alarms:
         before, self.active = self.active, known
         return self.active != before
 
-    def message(self, aircraft: str) -> dict[str, Any]:
-        active = [
+    def rows(self) -> list[dict[str, str]]:
+        return [
             {"kind": each.kind, "code": each.code, "level": each.level, "text": each.text}
             for each in self.active
         ]
-        return {"type": "alarms", "aircraft": aircraft, "active": active}
+
+    def message(self, aircraft: str) -> dict[str, Any]:
+        return {"type": "alarms", "aircraft": aircraft, "active": self.rows()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +155,10 @@ class EventMonitor:
         self._states: dict[Rule, Any] = {}
         self._were_there: set[Rule] = set()
         self._number = 0
+
+    def alarm_rows(self) -> list[dict[str, str]]:
+        """Return the active alarms, as in the message `alarms`."""
+        return self._alarms.rows()
 
     def report(self, kind: str, report: Report | None, now_s: float) -> None:
         if report is not None:

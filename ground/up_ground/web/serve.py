@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from up_ground.web.tiles import TileSource
 
 MakeTiles = Callable[[Any], "TileSource"]
-AIRCRAFT_LIMIT = 16
+AIRCRAFT_LIMIT = 64
 _ONE = re.compile(
     rf"(?P<name>{AIRCRAFT_NAME.pattern})"
     r"(?:@(?P<host>\[[0-9A-Fa-f:.%a-z]+\]|[A-Za-z0-9_.%-]{1,255}):(?P<port>[0-9]{1,5})"
@@ -64,7 +64,13 @@ def fleet_of(options: argparse.Namespace) -> list[Settings]:
         options.host, options.port, options.aircraft, Seat.LISTEN, options.direct, options.tls
     )
     store = KeyStore(state_folder(os.environ))
-    chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
+    usual_names = [] if options.paired else [options.aircraft]
+    chosen = [parse_aircraft(text, usual) for text in options.fleet or usual_names]
+    if options.paired:
+        more = sorted(store.all().keys() - {each.aircraft for each in chosen})
+        chosen += [replace(usual, aircraft=name) for name in more]
+        if not chosen:
+            raise UsageError("--paired: no key is stored; run 'up-ground pair'", "not_paired")
     chosen = [replace(each, pairing=store.get(each.aircraft)) for each in chosen]
     names = [each.aircraft for each in chosen]
     for name in names:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ from twisted.internet.error import CannotListenError
 from up.cli.option_parser import EXIT_OK
 from up.system.figures import text_of
 from up.system.metrics_page import serve_metrics
+from up.system.notify import Notifier, WatchdogPinger
 from up.tls.files import TLSFiles
 from up.tls.protocol import TLSServerFactory
 from up_ground.catalogue import Catalogue, catalogue_message
@@ -19,17 +20,16 @@ from up_ground.web.access import Access
 from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_hub import ClientHub
 from up_ground.web.connections import Connections
+from up_ground.web.documentation import has_documentation
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.metrics import figures_of
 from up_ground.web.page_link import link_resource
 from up_ground.web.sign_in import SignIn
 from up_ground.web.site import GroundResource, make_site
-from up_ground.web.static_files import StaticFiles
+from up_ground.web.static_files import STATIC, StaticFiles
 
 if TYPE_CHECKING:
     from up_ground.web.tiles import TileSource
-
-STATIC = Path(__file__).with_name("static")
 
 MakeSources = Callable[[ClientHub], Iterable[AircraftSource]]
 
@@ -59,7 +59,14 @@ class Server(OneShotTask):
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
         # Without Commands there is nothing to offer.
         offered = None if catalogue is None else catalogue_message(catalogue)
-        self.pages = ClientHub(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
+        self.pages = ClientHub(
+            reactor,
+            access,
+            tiles=told,
+            catalogue=offered,
+            is_replay=is_replay,
+            has_docs=has_documentation(folder),
+        )
         for aircraft in make_sources(self.pages):
             self.pages.fleet[aircraft.name] = aircraft
         self._reactor = reactor
@@ -76,6 +83,9 @@ class Server(OneShotTask):
         self._port: Any = None
         self._metrics_port = metrics_port
         self._metrics: Any = None
+        self._notifier = Notifier.from_environment()
+        # A ping shows that the event loop turns, which is all that the server needs.
+        self._pinger = WatchdogPinger(reactor, lambda: True, self._notifier)
 
     def start(self) -> None:
         """Open the port, print the page's address, and begin to connect."""
@@ -91,10 +101,14 @@ class Server(OneShotTask):
             text = f"cannot open {address}: {reason} ({options})"
             self.fail(text, "listen_failed", EXIT_NO_ANSWER, address=address)
             return
-        self._print_addresses(self._port.getHost().port)
+        scheme = "https" if self._is_https else "http"
+        urls = listen.urls(self._port.getHost().port, scheme)
+        self._print_addresses(urls)
         self.pages.start()
         for aircraft in self.pages.fleet.values():
             aircraft.start()
+        self._notifier.ready(f"open {urls[0]}")
+        self._pinger.start()
 
     def finish(self, status: int) -> None:
         """End; an interrupt is how a server ends."""
@@ -103,6 +117,8 @@ class Server(OneShotTask):
     async def stop(self) -> None:
         """Close the port, the pages' links and the aircraft's."""
         port, self._port = self._port, None
+        self._pinger.stop()
+        self._notifier.stopping()
         if self._metrics is not None:
             await self._metrics.stopListening()
         if port is None:
@@ -117,10 +133,9 @@ class Server(OneShotTask):
     def _figures(self) -> str:
         return text_of(figures_of(self.pages))
 
-    def _print_addresses(self, port: int) -> None:
+    def _print_addresses(self, urls: Sequence[str]) -> None:
         for aircraft in self.pages.fleet.values():
             self.echo(f"  {aircraft.summary}", "aircraft", name=aircraft.name)
-        urls = self._listen.urls(port, "https" if self._is_https else "http")
         self.echo(f"open {urls[0]}", "page_open", url=urls[0])
         for url in urls[1:]:
             self.echo(f"  or {url}", "page_address", url=url)

@@ -10,6 +10,7 @@ from twisted.web.resource import Resource
 from twisted.web.server import Request, Site
 
 from up_ground.web.access import Access
+from up_ground.web.documentation import DOCS, allow_scripts
 from up_ground.web.static_files import StaticFiles
 
 if TYPE_CHECKING:
@@ -48,25 +49,15 @@ _BODY_REFUSED = (
 _PLAIN = b"text/plain; charset=utf-8"
 
 
-class GroundResource(Resource):
-    """The one resource of the site: every request passes its checks and gets its headers."""
+class PageResource(Resource):
+    """The files of a page; every request passes the checks and gets the headers."""
 
     isLeaf = True  # noqa: N815 - Twisted's name
 
-    def __init__(
-        self,
-        access: Access,
-        files: StaticFiles,
-        link: Any,
-        tiles: TileSource | None = None,
-        sign_in: Any = None,
-    ) -> None:
+    def __init__(self, access: Access, files: StaticFiles) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
-        self._sign_in = sign_in
         self._access = access
         self._files = files
-        self._link = link
-        self._tiles = tiles
 
     def render(self, request: Any) -> Any:
         for name, value in HEADERS.items():
@@ -80,16 +71,58 @@ class GroundResource(Resource):
         if b"key" in request.args:
             text = "a key does not belong into an address: open this page without it and sign in"
             return refuse(request, http.BAD_REQUEST, text)
-        if request.path == SESSION and self._sign_in is not None:
-            return self._refusal_of_origin(request) or self._sign_in.render(request)
+        return self.answer(request)
+
+    def answer(self, request: Any) -> Any:
+        """Answer a request that passed the checks."""
         if request.method not in (b"GET", b"HEAD"):
             request.setHeader(b"allow", b"GET, HEAD")
             return refuse(request, http.NOT_ALLOWED, "only GET and HEAD")
+        return self.get(request)
+
+    def get(self, request: Any) -> Any:
+        """Answer GET and HEAD."""
+        return self.file(request, request.path)
+
+    def file(self, request: Any, path: bytes) -> bytes:
+        found = self._files.get(path)
+        if found is None:
+            return refuse(request, http.NOT_FOUND, "not found")
+        request.setHeader(b"content-type", found.media_type.encode("ascii"))
+        if request.setETag(found.etag.encode("ascii")) is http.CACHED:
+            return b""
+        return send(request, found.content)
+
+
+class GroundResource(PageResource):
+    """The ground station's page, its link and the map's tiles."""
+
+    def __init__(
+        self,
+        access: Access,
+        files: StaticFiles,
+        link: Any,
+        tiles: TileSource | None = None,
+        sign_in: Any = None,
+    ) -> None:
+        super().__init__(access, files)
+        self._sign_in = sign_in
+        self._link = link
+        self._tiles = tiles
+
+    def answer(self, request: Any) -> Any:
+        if request.path == SESSION and self._sign_in is not None:
+            return self._refusal_of_origin(request) or self._sign_in.render(request)
+        return super().answer(request)
+
+    def get(self, request: Any) -> Any:
         if request.path == LINK:
             return self._render_link(request)
         if request.path.startswith(TILES) and self._tiles is not None:
             return self._tiles.render(request)
-        return self._render_file(request)
+        if request.path.startswith(DOCS):
+            allow_scripts(request, self._files.get(request.path))
+        return super().get(request)
 
     def _render_link(self, request: Any) -> Any:
         upgrade = only(request, b"upgrade") or ""
@@ -105,15 +138,6 @@ class GroundResource(Resource):
         if (origins and origin is None) or not self._access.permits_origin(origin, host):
             return refuse(request, http.FORBIDDEN, "a page of another site may not connect")
         return None
-
-    def _render_file(self, request: Any) -> Any:
-        found = self._files.get(request.path)
-        if found is None:
-            return refuse(request, http.NOT_FOUND, "not found")
-        request.setHeader(b"content-type", found.media_type.encode("ascii"))
-        if request.setETag(found.etag.encode("ascii")) is http.CACHED:
-            return b""
-        return send(request, found.content)
 
 
 class GroundRequest(Request):
@@ -146,7 +170,7 @@ class _Site(Site):
         """Write no line for a request."""
 
 
-def make_site(reactor: Any, resource: GroundResource) -> Site:
+def make_site(reactor: Any, resource: PageResource) -> Site:
     """Return the factory that listens, without an access log."""
     make: Any = _Site
     site: Site = make(resource, requestFactory=GroundRequest, timeout=IDLE_S, reactor=reactor)

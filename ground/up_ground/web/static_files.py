@@ -8,9 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote_to_bytes
 
+STATIC = Path(__file__).with_name("static")
 MAX_FILE_BYTES = 8_000_000
 _SEGMENT = re.compile(rb"[A-Za-z0-9_@-][A-Za-z0-9_.@-]{0,99}")
-_PAGES = {b"/": b"/index.html", b"/overlay": b"/overlay.html"}
+_PAGES = {
+    b"/": b"/index.html",
+    b"/overlay": b"/overlay.html",
+    b"/docs/": b"/docs/index.html",
+}
 _TYPES = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",

@@ -43,6 +43,18 @@ FRAME_US, SILENT_US = 20_000.0, 5e6
 _HOST = "127.0.0.1"
 
 
+def find_program(program: str = PROGRAM) -> str:
+    """Return the path of Betaflight's program; raises ``BoardUnavailableError``."""
+    found = shutil.which(program)
+    if found is not None:
+        return str(Path(found).resolve())
+    if Path(program).is_file():
+        text = f"{program} cannot be executed: 'chmod +x {program}' makes it a program"
+    else:
+        text = f"{program} is not installed: cogs/msp_cog/README.md says where it comes from"
+    raise BoardUnavailableError(text)
+
+
 class _Imu(BoardImu):
     def measure(self, time_s: float) -> Motion:
         return self._model.measure(self.motion, time_s)
@@ -60,12 +72,7 @@ class BetaflightBoard:
     eeprom = b""
 
     def __init__(self, flight: Dynamics, program: str = PROGRAM, seed: int = 1) -> None:
-        found = shutil.which(program)
-        if found is None:
-            raise BoardUnavailableError(
-                f"there is no program {program}: cogs/msp_cog/README.md says where it comes from"
-            )
-        self._program = str(Path(found).resolve())
+        self._program = find_program(program)
         self._flight = flight
         self.imu = _Imu(ImuErrors(), seed)
         self.on_ground: Sticks | None = None
@@ -84,9 +91,11 @@ class BetaflightBoard:
             self._start()
         except BaseException as error:
             self.close()
-            if isinstance(error, OSError | subprocess.SubprocessError):
-                text = f"{program}, to which UDP port {PWM_PORT} belongs: {error}"
-                raise BoardUnavailableError(text) from error
+            if isinstance(error, OSError):
+                raise BoardUnavailableError(
+                    f"UDP port {PWM_PORT}, which Betaflight sends its pulses to: {error.strerror};"
+                    " only one flight with Betaflight at a time"
+                ) from error
             raise
 
     @property
@@ -155,9 +164,18 @@ class BetaflightBoard:
     def _configure(self) -> None:
         """Let it save the settings, which ends it."""
         command = [self._program, "--config", str(SETTINGS)]
-        subprocess.run(
-            command, cwd=self._folder, timeout=SETTINGS_LIMIT_S, capture_output=True, check=True
-        )
+        try:
+            subprocess.run(
+                command, cwd=self._folder, timeout=SETTINGS_LIMIT_S, capture_output=True, check=True
+            )
+        except subprocess.SubprocessError as error:
+            text = f"{self._program} does not take the settings of {SETTINGS.name}: {error}"
+            raise BoardUnavailableError(text) from error
+        except OSError as error:
+            raise BoardUnavailableError(
+                f"{self._program} cannot be executed: {error.strerror}; is it built for this"
+                " computer?"
+            ) from error
 
     def _start(self) -> None:
         """Start it until it sends pulses: on a busy computer its control loop may never run."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from up_rig import FirmwareError, RigUnavailableError
-from up_rig.build import ARDUINO, BuildError, build_firmware, has_sources, make
+from up_rig.build import ARDUINO, BuildError, build_firmware, build_host_library, has_sources
 from up_rig.library import load_library
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.direct_board import DirectBoard
@@ -96,8 +96,9 @@ def _firmware(log: Log) -> Path:
 
 
 def _host_program(log: Log) -> Program:
+    library = HOST_LIBRARY
     try:
-        make("host-library")
+        library = build_host_library()
     except (RigUnavailableError, BuildError) as error:
         reason = _reason(error)
         if isinstance(error, BuildError) and "needs a C++ compiler" not in reason:
@@ -110,7 +111,7 @@ def _host_program(log: Log) -> Program:
         text = f"the firmware for this computer {_NOT_REBUILT}: {reason}"
         log(text, code="board_outdated", reason=reason)
     module = importlib.import_module("up_simulator.firmware.host_board")
-    return Program(HOST_LIBRARY, module.HostBoard)
+    return Program(library, module.HostBoard)
 
 
 def _is_ready(program: Path) -> bool:

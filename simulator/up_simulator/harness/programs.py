@@ -12,22 +12,22 @@ from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.user_log import LogLine
 
-ROOT = Path(__file__).resolve().parents[3]
 START_LIMIT_S = 30.0
 
 
 class RealProgram:
     """A program with a configuration folder ``config``; its log is ``<NAME>.log`` in ``folder``.
 
-    One log has all its runs. Only ``wait_for`` and ``stop`` wait.
+    ``prefix`` is a command that becomes it. One log has all its runs. Only ``wait_for`` and
+    ``stop`` wait.
     """
 
     NAME = ""
     PROGRAM: tuple[str, ...] = ()
     DEATH_SIGNAL = signal.SIGTERM
 
-    def __init__(self, config: Path, folder: Path) -> None:
-        self._command = [sys.executable, *self.PROGRAM, "--config", str(config)]
+    def __init__(self, config: Path, folder: Path, prefix: Sequence[str] = ()) -> None:
+        self._command = [*prefix, sys.executable, *self.PROGRAM, "--config", str(config)]
         self._folder = folder
         self._child: Child | None = None
 
@@ -87,7 +87,7 @@ class RealProgram:
 class RealRaspilot(RealProgram):
     """The daemon, started as on a Raspberry Pi; satisfies ``participants.Raspilot``."""
 
-    NAME, PROGRAM = "raspilot", (str(ROOT / "main.py"),)
+    NAME, PROGRAM = "raspilot", ("-m", "raspilot")
     # A frozen daemon receives only this signal when we are killed.
     DEATH_SIGNAL = signal.SIGKILL
 

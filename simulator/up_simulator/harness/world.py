@@ -66,6 +66,9 @@ class World:
         self._steps += 1
         self._feel(pulses_us)
 
+    def close(self) -> None:
+        """Release what the board takes of this computer."""
+
     def advance(self, duration_s: float) -> None:
         """Run all whole steps of the time requested so far. Raises ``BoardCrashedError``."""
         self._owed_s += duration_s

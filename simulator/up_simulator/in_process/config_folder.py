@@ -8,9 +8,10 @@ from typing import Any
 
 import yaml
 
-GROUND_PORT = 50002
+GROUND_PORT, METRICS_PORT, MAVLINK_PORT = 50002, 9304, 5760
 SERIAL_PORT = "/dev/ttySimulated"
-GPS_PORT = "/dev/ttySimulatedGps"
+GPS_PORT, CRSF_PORT = "/dev/ttySimulatedGps", "/dev/ttySimulatedCrsf"
+GOGGLES_PORT = "/dev/ttySimulatedGoggles"
 BASE: Mapping[str, Mapping[str, Any]] = {
     "arduino.yml": {"port": SERIAL_PORT},
     "mission_control.yml": {
@@ -39,6 +40,11 @@ def write_config(folder: Path, files: Mapping[str, Mapping[str, Any]] | None = N
         text = yaml.safe_dump(values, sort_keys=False, allow_unicode=True)
         (folder / name).write_text(text, encoding="utf-8")
     return folder
+
+
+def mavlink_file(port: int) -> dict[str, Any]:
+    """Return the mavlink.yml of an aircraft with one endpoint, at this TCP port."""
+    return {"endpoints": [{"url": f"tcpin:127.0.0.1:{port}"}]}
 
 
 def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

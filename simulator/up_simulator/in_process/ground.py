@@ -40,12 +40,13 @@ class InProcessGround:
         reactor: SimulatedReactor,
         port: int = GROUND_PORT,
         *,
+        host: str = ADDRESS,
         seed: int = 1,
     ) -> None:
         self.others: OrderedDict[str, Mapping[str, Any]] = OrderedDict()
         self._reactor = reactor
         self._seed = seed
-        self._settings = Settings(ADDRESS, port, seat=Seat.COMMAND)
+        self._settings = Settings(host, port, seat=Seat.COMMAND)
         self._tokens = _TokenInMemory(self._settings)
         self._received = Telemetry()
         self._answers: OrderedDict[str, str] = OrderedDict()
@@ -82,6 +83,11 @@ class InProcessGround:
     @property
     def is_connected(self) -> bool:
         return self._link is not None and self._link.status.is_open
+
+    @property
+    def is_in_control(self) -> bool:
+        """Return whether it has control at the proxy; a listener grants none."""
+        return self._link is not None and self._link.status.seat is Seat.COMMAND
 
     def start(self) -> None:
         if self._link is None:

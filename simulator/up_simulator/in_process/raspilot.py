@@ -74,9 +74,6 @@ class DaemonLog:
             self.lines.extend(f"    {line}" for line in traceback_of(event, level).splitlines())
 
 
-ROOT = Path(__file__).resolve().parents[3]
-
-
 class SettableMeter:
     """The load that the Load Guard sees, percent."""
 
@@ -94,13 +91,13 @@ class SettableMeter:
 class InProcessRaspilot:
     """Loads, starts, stops and kills the application as its program does.
 
-    The application is found from ``root`` and configured by a folder (``write_config``). Its
-    serial port is a socket in this process, whatever port its configuration names, which ``pump``
-    connects with a board; ``line`` can be unplugged. So is the port of a satellite receiver,
-    ``gps_line``; ``i2c`` is its I2C bus. Its random numbers follow ``seed``. Signals,
-    the process's priority, its watchdogs and its garbage collector belong to the program, and are
-    not part of this. A proxy must be configured by its address: a name would be resolved by a
-    thread.
+    The application is found from ``root``, otherwise it is the installed Raspilot; a folder
+    configures it (``write_config``). Its serial port is a socket in this process, whatever port its
+    configuration names, which ``pump`` connects with a board; ``line`` can be unplugged. So are the
+    ports of a satellite receiver, ``gps_line``, of a CRSF receiver, ``crsf_line``, and of goggles,
+    ``goggles_line``; ``i2c`` is its I2C bus. Its random numbers follow ``seed``. Signals, the
+    process's priority, its watchdogs and its garbage collector belong to the program, and are not
+    part of this. A proxy must be configured by its address: a name would be resolved by a thread.
     """
 
     log_source = Logger()
@@ -111,11 +108,11 @@ class InProcessRaspilot:
         config_folder: Path,
         *,
         seed: int = 1,
-        root: Path = ROOT,
+        root: Path | None = None,
     ) -> None:
         self.meter = SettableMeter()
         self.line = SocketLine()
-        self.gps_line = SocketLine()
+        self.gps_line, self.crsf_line, self.goggles_line = SocketLine(), SocketLine(), SocketLine()
         self.i2c = TwinBus({})
         self.up: Up | None = None
         self.boots = 0
@@ -149,7 +146,8 @@ class InProcessRaspilot:
         host = self._reactor.host("raspilot")
         application = None
         try:
-            application = Application.find(self._root)
+            root = self._root
+            application = Application.find(root) if root else Application.installed("raspilot")
             context = make_context(application, host, self._config_folder, {})
             # A later start draws other numbers, as a later process would.
             context.random = Random(self._seed + 1_000_003 * self.boots)
@@ -192,8 +190,8 @@ class InProcessRaspilot:
             return
         self._log.close()
         host.cut_off()
-        self.line.cut()
-        self.gps_line.cut()
+        for line in (self.line, self.gps_line, self.crsf_line, self.goggles_line):
+            line.cut()
         self.up = self._life = None
 
     def freeze(self) -> None:
@@ -224,6 +222,10 @@ class InProcessRaspilot:
                 each.open_port = partial(_open, self.line)
             elif module.class_name == "GpsProvider":
                 each.open_port = partial(_open, self.gps_line)
+            elif module.class_name == "CrsfReceiver":
+                each.open_port = partial(_open, self.crsf_line)
+            elif module.class_name == "GogglesOsd":
+                each.open_port = partial(_open, self.goggles_line)
             elif module.class_name == "I2cSensors":
                 each.open_bus = lambda _number: self.i2c
                 each.start = partial(_start_in_reactor, each)

@@ -85,6 +85,8 @@ class TcpConnection:
             self.disconnecting = True
             self._want_to_write()
 
+    loseWriteConnection = loseConnection  # noqa: N815 - Twisted's name; the input ends, too
+
     def abortConnection(self) -> None:  # noqa: N802 - Twisted's name
         """Abort the connection; the other side gets a reset."""
         if not self.disconnected and self._has_program:

@@ -106,7 +106,10 @@ async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
 
 
 def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
-    """Return the place that a runner's answer names; raises ``NotFoundError``."""
+    """Return the place that a runner's answer names, at ``host`` unless it names another one.
+
+    Raises ``NotFoundError``.
+    """
     try:
         answer = json.loads(line)
         if answer["running"] is not True:
@@ -114,6 +117,7 @@ def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
             raise NotFoundError(text, answer.get("code") or "refused")
         ports = answer["ports"]
         general, orientation = ports["general"], ports["orientation"]
+        host = str(answer.get("host") or host)
     except (ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
         raise NotFoundError(f"the runner's answer is invalid: {line[:80]!r}") from error
     if not all(type(each) is int and 1 <= each <= 65535 for each in (general, orientation)):

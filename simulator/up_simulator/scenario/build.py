@@ -9,6 +9,9 @@ from typing import Any
 from up_flightlog.read.demand import DemandModel
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
+from up_simulator.betaflight.board import BetaflightBoard
+from up_simulator.betaflight.world import BetaflightWorld
+from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.harness.user_log import text_log
@@ -37,9 +40,18 @@ def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> Sce
         seed=scenario.seed,
         may_land=scenario.may_land,
     )
-    board = _board(scenario, airframe, notify)
-    world = World(dynamics, board)
-    participants = _participants(scenario, airframe, dynamics, board)
+    if scenario.board == "betaflight":
+        betaflight = BetaflightBoard(dynamics, seed=scenario.seed)
+        board = _on_line(scenario, betaflight)
+        world: World = BetaflightWorld(dynamics, betaflight, board)
+    else:
+        board = _board(scenario, airframe, notify)
+        world = World(dynamics, board)
+    try:
+        participants = _participants(scenario, airframe, dynamics, board)
+    except BaseException:
+        world.close()
+        raise
     demand = DemandModel(profile_of(scenario, airframe.profile))
     flight = ScenarioFlight(scenario, world, board, participants, demand, airframe.imu)
     flight.record.settings = _settings(scenario, airframe)
@@ -55,6 +67,7 @@ def _settings(scenario: Scenario, airframe: Airframe) -> dict[str, dict[str, Any
 
 
 def _board(scenario: Scenario, airframe: Airframe, notify: Notify) -> LineBoard:
+    assert scenario.board != "betaflight"
     eeprom = b""
     if scenario.eeprom != "blank":
         profile, gains = profile_of(scenario, airframe.profile), gains_of(scenario, airframe.gains)
@@ -74,6 +87,10 @@ def _board(scenario: Scenario, airframe: Airframe, notify: Notify) -> LineBoard:
         eeprom=eeprom,
         log=text_log(notify),
     )
+    return _on_line(scenario, board)
+
+
+def _on_line(scenario: Scenario, board: FirmwareBoard) -> LineBoard:
     delay_us = scenario.receiver.delay_ms * 1000
     return LineBoard(board, SerialWires(scenario.seed), delay_us)
 

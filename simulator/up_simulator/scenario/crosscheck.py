@@ -29,6 +29,9 @@ _PARTS = {
     "phone": "a phone: add 'phone: {}' with its keys",
     "distance": "a ground station: add 'ground: {role: pilot}'",
     "ground": "a ground station: add 'ground: {role: pilot}'",
+    "goggles": "goggles: add 'goggles: 50x18'",
+    "metrics": "a reader of the metrics: add 'metrics: true'",
+    "mavlink": "a MAVLink ground: add 'mavlink: true'",
 }
 
 
@@ -100,14 +103,22 @@ def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     for at, event in enumerate(scenario.events):
         kind = event.kinds[0]
         node = locate(root, "events", at, kind)
-        if kind in _NEEDS_BOARD and scenario.board == "direct":
-            yield node, "needs a flight computer, and 'board: direct' has none"
+        if kind in _NEEDS_BOARD and not scenario.has_arduino:
+            yield node, f"needs the Arduino, and 'board: {scenario.board}' has none"
         if kind in _NEEDS_RASPILOT and not scenario.has_raspilot:
             yield node, "needs a Raspberry Pi: add 'raspilot: {runs: in process}'"
         if kind in _NEEDS_PHONE and scenario.phone is None:
             yield node, "needs a phone: add 'phone: {plugged: true}'"
         if kind in _NEEDS_GROUND and scenario.ground is None:
             yield node, "needs a ground station: add 'ground: {role: pilot}'"
+        if kind == "path" and scenario.through != "two paths":
+            yield node, "needs two paths: add 'ground: {through: two paths}'"
+        if kind in ("link", "link_settings") and scenario.through == "two paths":
+            yield node, "the two paths are no simulated link: use 'path: cut'"
+        if kind == "crsf" and not scenario.crsf:
+            yield node, "needs a CRSF receiver: add 'crsf: [CRUISE, LOITER, RETURN]'"
+        if kind == "mavlink" and not scenario.mavlink:
+            yield node, "needs a MAVLink ground: add 'mavlink: true'"
         if kind in _NEEDS_REAL and not scenario.is_real:
             yield node, "needs real programs: 'raspilot: {runs: real}'"
         if event.raspilot in ("hung", "awake") and not scenario.is_real:

@@ -97,6 +97,16 @@ class Event:
     gps_receiver: Literal["unplugged", "lost", "jumped", "frozen", "back"] | None = key(
         None, "The receiver beside the phone. unplugged: its port is gone; else as gps."
     )
+    crsf: Literal["low", "middle", "high", "lost"] | None = key(
+        None,
+        "The switch of the transmitter whose CRSF receiver is at the Raspberry Pi. lost: the"
+        " receiver reports that it receives nothing.",
+    )
+    mavlink: Literal["FBWA", "CRUISE", "LOITER", "AUTO", "RTL", "silent", "back"] | None = key(
+        None,
+        "The MAVLink ground selects a flight mode, by the name of ArduPlane's. silent: it sends"
+        " nothing more, not even heartbeats, and stays connected.",
+    )
     i2c: Literal["unplugged", "back"] | None = key(
         None, "The wire to all sensors at the I2C bus: every transfer fails."
     )
@@ -125,6 +135,9 @@ class Event:
         None,
         "The daemon. killed: as by kill -9. stopped: as by systemd. hung: suspended until awake"
         " (real programs only).",
+    )
+    path: Literal["cut", "back"] | None = key(
+        None, "The preferred one of two paths to the proxy. cut: it carries nothing, and stays up."
     )
     proxy: Literal["killed", "started"] | None = key(None, "The proxy; real programs only.")
     cpu_load_percent: float | None = key(

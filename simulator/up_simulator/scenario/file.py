@@ -33,7 +33,6 @@ from up_simulator.scenario.scenario import Scenario
 SCHEMA = schema_of(Scenario)
 _HERE = Path()
 _FREE_TEXT = ("is", "is_not", "becomes")
-ROOT = Path(__file__).resolve().parents[3]
 
 
 @cache
@@ -43,7 +42,7 @@ def daemon_files() -> dict[str, ConfigFile[Any]]:
     The daemon itself validates all other files when it starts.
     """
     try:
-        application = Application.find(ROOT)
+        application = Application.installed("raspilot")
         found = survey(application)
     except (NoApplicationError, ConfigErrors, BootError):
         return {}

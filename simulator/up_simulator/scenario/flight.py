@@ -31,6 +31,8 @@ STEPS_PER_ROW = 10
 READY_S = 15.0
 READY_STEP_US = 20_000.0
 LOG_TAIL = 20
+LEAST_SPEED = 0.9
+"""Times real time, below which the figures of real programs are not valid."""
 _HALF_STEP_S = STEP_S / 2
 
 _SETPOINT = struct.Struct(">hhhHH")
@@ -71,9 +73,8 @@ class ScenarioFlight:
         self._total_steps = round(scenario.duration_s / STEP_S)
         self.record = FlightRecord(scenario, FlightLog(columns_of(scenario)))
         self.record.board_title = board.title
-        has_computer = scenario.board != "direct"
         self._sampler = Sampler(
-            world, board, demand, participants, has_flight_computer=has_computer
+            world, board, demand, participants, has_flight_computer=scenario.has_arduino
         )
         board.after_slice = self._exchange
         board.on_command = self._on_command
@@ -114,7 +115,9 @@ class ScenarioFlight:
         finally:
             self.record.flown_s = self.time_s
             self.record.took_s = time.perf_counter() - began_s
+            self._note_if_too_slow()
             self.participants.stop()
+            self._world.close()
             self.record.black_boxes = self.participants.black_boxes
         return self.record
 
@@ -175,6 +178,15 @@ class ScenarioFlight:
             vetoes = f"0x{status.vetoes:02X}"
             self.record.note(
                 "not_armed", f"the board was not armed when the flight began (vetoes {vetoes})"
+            )
+
+    def _note_if_too_slow(self) -> None:
+        record = self.record
+        if record.scenario.is_real and not record.is_cut_short and record.speed < LEAST_SPEED:
+            record.note(
+                "not_real_time",
+                "this computer was too slow to fly in real time: times and counts of the real"
+                " programs are not valid",
             )
 
     def _exchange(self) -> None:

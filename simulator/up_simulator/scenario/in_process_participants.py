@@ -5,11 +5,24 @@ from __future__ import annotations
 from typing import Any
 
 from up_simulator.aircraft.flight import FlightSource
-from up_simulator.in_process.config_folder import GPS_PORT, GROUND_PORT, merge, write_config
+from up_simulator.in_process.config_folder import (
+    CRSF_PORT,
+    GOGGLES_PORT,
+    GPS_PORT,
+    GROUND_PORT,
+    MAVLINK_PORT,
+    METRICS_PORT,
+    mavlink_file,
+    merge,
+    write_config,
+)
 from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.mavlink_ground import MavlinkGround
+from up_simulator.in_process.metrics_reader import MetricsReader
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
+from up_simulator.radio.crsf_receiver import CHANNEL, CrsfReceiver
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import DaemonParticipants
 from up_simulator.scenario.scenario import Scenario
@@ -39,9 +52,22 @@ class InProcessParticipants(DaemonParticipants):
         if scenario.gps is not None:
             receiver = {"source": "ubx", "port": GPS_PORT, "rate_hz": scenario.gps.rate_hz}
             settings = merge(settings, {"gps.yml": {"receivers": {"gps": receiver}}})
+        if scenario.crsf:
+            crsf = {"port": CRSF_PORT, "mode_channel": CHANNEL, "modes": list(scenario.crsf)}
+            settings = merge(settings, {"crsf.yml": crsf})
+            self.crsf = CrsfReceiver()
         if scenario.sensors:
             sensors = {name: {"chip": name} for name in scenario.sensors}
             settings = merge(settings, {"sensors.yml": {"sensors": sensors}})
+        if scenario.goggles is not None:
+            osd = {"port": GOGGLES_PORT, "grid": scenario.goggles}
+            settings = merge(settings, {"osd.yml": osd})
+        if scenario.metrics:
+            settings = merge(settings, {"metrics.yml": {"port": METRICS_PORT}})
+            self.metrics = MetricsReader(self._reactor)
+        if scenario.mavlink:
+            settings = merge(settings, {"mavlink.yml": mavlink_file(MAVLINK_PORT)})
+            self.mavlink = MavlinkGround(self._reactor)
         self._flight = flight
         config = write_config(self._workspace.path, merge(settings, scenario.raspilot.config))
         self._daemon = InProcessRaspilot(self._reactor, config, seed=scenario.seed)
@@ -66,6 +92,10 @@ class InProcessParticipants(DaemonParticipants):
         self._daemon.pump(self.board)
         if self.receiver is not None:
             self.receiver.exchange(self._daemon.gps_line, self._flight.state)
+        if self.crsf is not None:
+            self.crsf.exchange(self._daemon.crsf_line, self.seconds())
+        if self.goggles is not None:
+            self.goggles.exchange(self._daemon.goggles_line)
         if self.scenario.sensors and self.seconds() >= self._i2c_due_s:
             self._i2c_due_s = self.seconds() + I2C_PERIOD_S
             self._daemon.i2c.update(self._flight.state)

@@ -9,8 +9,12 @@ from types import MappingProxyType
 from up.commands.board_schema import Veto
 from up_simulator.harness.participants import ParticipantError, Raspilot
 from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.mavlink_ground import MavlinkGround
+from up_simulator.in_process.metrics_reader import MetricsReader
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.link.model import LinkModel
+from up_simulator.radio.crsf_receiver import CrsfReceiver
+from up_simulator.radio.goggles import Goggles
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.initial_conditions import LinkPart
 from up_simulator.scenario.line_board import LineBoard
@@ -37,6 +41,10 @@ class Participants:
     ground: InProcessGround | None = None
     phone: InProcessPhone | None = None
     receiver: UbxReceiver | None = None
+    crsf: CrsfReceiver | None = None
+    goggles: Goggles | None = None
+    metrics: MetricsReader | None = None
+    mavlink: MavlinkGround | None = None
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
     """The files, by name, that a real daemon has recorded; available after ``stop``."""
 
@@ -94,6 +102,8 @@ class DaemonParticipants(Participants, ABC):
             if part is None
             else UbxReceiver(scenario.seed, cold_s=part.cold_s, is_exact=part.is_exact)
         )
+        if scenario.goggles is not None:
+            self.goggles = Goggles(*map(int, scenario.goggles.split("x")))
         self._ready_s: float | None = None
         self._should_run = False
 
@@ -126,6 +136,9 @@ class DaemonParticipants(Participants, ABC):
         self._should_run = True
         if self.ground is not None:
             self.ground.start()
+        for each in (self.metrics, self.mavlink):
+            if each is not None:
+                each.start()
         part = self.scenario.phone
         if self.phone is not None and part is not None:
             self.phone.set_battery(part.battery_percent)
@@ -156,6 +169,10 @@ class DaemonParticipants(Participants, ABC):
                     self.plug_receiver(event.gps_receiver == "back")
                 if event.gps_receiver != "unplugged":
                     self.receiver.set_state(event.gps_receiver or "back")
+            case "crsf" if self.crsf is not None and event.crsf is not None:
+                self.crsf.switch(event.crsf)
+            case "mavlink" if self.mavlink is not None and event.mavlink is not None:
+                self.mavlink.command(event.mavlink)
             case "i2c":
                 self.plug_i2c(event.i2c == "back")
             case "phone_battery" if phone is not None and event.phone_battery is not None:
@@ -177,6 +194,9 @@ class DaemonParticipants(Participants, ABC):
         self._should_run = False
         if self.ground is not None:
             self.ground.stop()
+        for each in (self.metrics, self.mavlink):
+            if each is not None:
+                each.stop()
         if self.phone is not None:
             self.phone.stop()
         self.kill_raspilot()
@@ -196,8 +216,12 @@ class DaemonParticipants(Participants, ABC):
     def _has_connected(self) -> bool:
         if self.ground is not None and not self.ground.frames:
             return False
+        if self.mavlink is not None and self.mavlink.newest_s is None:
+            return False
         if self.scenario.board == "direct":
             return True
+        if self.scenario.board == "betaflight":
+            return self.ground is not None and self.ground.telemetry.get("armed") is not None
         status = self.board.tap.status
         return (
             status is not None and status.is_pi_received and not status.vetoes & Veto.RASPBERRY_PI

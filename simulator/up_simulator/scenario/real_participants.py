@@ -6,12 +6,23 @@ from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
 from up_simulator.aircraft.flight import FlightSource
+from up_simulator.betaflight.packets import LINE as BETAFLIGHT_LINE
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.ports import choose_port_sets
 from up_simulator.harness.programs import RealProxy, RealRaspilot, RealRunner
+from up_simulator.harness.two_paths import (
+    BEST,
+    PROXY,
+    PROXY_FOR_GROUND,
+    SPARE,
+    TwoPaths,
+    check_paths,
+)
 from up_simulator.harness.world import BYTES_A_STEP
-from up_simulator.in_process.config_folder import merge, write_config
+from up_simulator.in_process.config_folder import mavlink_file, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.mavlink_ground import MavlinkGround
+from up_simulator.in_process.metrics_reader import MetricsReader
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.link.relay import LOOPBACK
 from up_simulator.scenario.event import Event
@@ -46,6 +57,10 @@ class RealParticipants(DaemonParticipants):
         settings: dict[str, dict[str, Any]],
     ) -> None:
         super().__init__(scenario, board)
+        self._paths: TwoPaths | None = None
+        if self.scenario.through == "two paths":
+            check_paths()
+            self._paths = TwoPaths()
         self._reactor = RealReactor()
         self._workspace = Workspace()
         self._folder = self._workspace.path
@@ -53,24 +68,28 @@ class RealParticipants(DaemonParticipants):
         self._ports, self._before = choose_port_sets(2)
         self._line: PtyLine | None = self._open_line()
         self._receiver_line = self._open_receiver_line()
+        self._goggles_line = None if self.goggles is None else self._open_line("goggles")
         self._flight = flight
         self._real = self._make_daemon(merge(self._files(), settings))
         self.raspilot = self._real
         self._make_ground()
         self._make_phone(flight)
-
-    @property
-    def _through(self) -> str:
-        return "listener" if self.scenario.ground is None else self.scenario.ground.through
+        reactor: Any = self._reactor
+        if scenario.metrics:
+            self.metrics = MetricsReader(reactor, self._before.metrics)
+        if scenario.mavlink:
+            self.mavlink = MavlinkGround(reactor, self._before.mavlink)
 
     @property
     def _has_proxy(self) -> bool:
-        return self._through != "listener"
+        return self.scenario.through != "listener"
 
     def seconds(self) -> float:
         return self._reactor.seconds()
 
     def start(self) -> None:
+        if self._paths is not None:
+            self._paths.open()
         if self._proxy is not None:
             self._proxy.start()
             self._proxy.wait_for_ports()
@@ -87,6 +106,8 @@ class RealParticipants(DaemonParticipants):
             line.write(sent)
         if self.receiver is not None and self._receiver_line is not None:
             self.receiver.exchange(self._receiver_line, self._flight.state)
+        if self.goggles is not None and self._goggles_line is not None:
+            self.goggles.exchange(self._goggles_line)
         self._reactor.advance(step_s)
         self.check_raspilot()
 
@@ -99,7 +120,9 @@ class RealParticipants(DaemonParticipants):
             self._real.check()
 
     def dispatch(self, event: Event) -> None:
-        if event.proxy is None:
+        if event.path is not None and self._paths is not None:
+            (self._paths.cut if event.path == "cut" else self._paths.restore)()
+        elif event.proxy is None:
             super().dispatch(event)
         elif self._proxy is not None:
             if event.proxy == "killed":
@@ -129,9 +152,12 @@ class RealParticipants(DaemonParticipants):
         super().stop()
         if self._proxy is not None:
             self._proxy.stop()
-        if self._line is not None:
-            self._line.close()
-            self._line = None
+        if self._paths is not None:
+            self._paths.close()
+        for line in (self._line, self._goggles_line):
+            if line is not None:
+                line.close()
+        self._line = self._goggles_line = None
         self.plug_receiver(False)
         self._reactor.stop()
         # An instance of a runner has its own folder in the one that it is given.
@@ -163,8 +189,9 @@ class RealParticipants(DaemonParticipants):
     def _make_daemon(self, files: dict[str, dict[str, Any]]) -> RealRaspilot | RunnerDaemon:
         folder, changes = self._folder / "config", self.scenario.raspilot.config
         config = write_config(folder, merge(files, changes))
-        self._proxy = RealProxy(config, self._folder) if self._has_proxy else None
-        if self._through != "runner":
+        inside = () if self._paths is None else self._paths.inside
+        self._proxy = RealProxy(config, self._folder, inside) if self._has_proxy else None
+        if self.scenario.through != "runner":
             return RealRaspilot(config, self._folder)
         role = files["mission_control.yml"].get("role", "operator")
         own: dict[str, dict[str, Any]] = {
@@ -190,11 +217,23 @@ class RealParticipants(DaemonParticipants):
             "mission_control.yml": {"listener": {"port": ports.ground, "address": LOOPBACK}},
             "black_box.yml": self._black_box(),
         }
+        if self.scenario.board == "betaflight":
+            files["config.yml"] = {"flight controller": "msp"}
+            files["msp.yml"] = {"port": BETAFLIGHT_LINE}
         if self.scenario.gps is not None:
             port, rate_hz = str(self._folder / "gps"), self.scenario.gps.rate_hz
             files["gps.yml"] = {"receivers": {"gps": {"port": port, "rate_hz": rate_hz}}}
+        if self.scenario.goggles is not None:
+            port, grid = str(self._folder / "goggles"), self.scenario.goggles
+            files["osd.yml"] = {"port": port, "grid": grid}
+        if self.scenario.metrics:
+            files["metrics.yml"] = {"port": self._before.metrics}
+        if self.scenario.mavlink:
+            files["mavlink.yml"] = mavlink_file(self._before.mavlink)
         if self._has_proxy:
-            uplink = {"url": LOOPBACK, "port": self._before.airborne}
+            uplink: dict[str, Any] = {"url": LOOPBACK, "port": self._before.airborne}
+            if self._paths is not None:
+                uplink = {"url": PROXY, "port": ports.airborne, "interfaces": [BEST, SPARE]}
             files["mission_control.yml"] = {"listener": {"port": 0}, "remote_server": uplink}
             files["proxy.yml"] = {
                 "airborne port": ports.airborne,
@@ -213,9 +252,11 @@ class RealParticipants(DaemonParticipants):
         ports, before = self._ports, self._before
         seed = self.scenario.seed
         reactor: Any = self._reactor
-        if self._through == "runner":
+        if self.scenario.through == "runner":
             # The link is the phone's: daemon and proxy are on servers.
             self.ground = InProcessGround(reactor, ports.ground, seed=seed)
+        elif self._paths is not None:
+            self.ground = InProcessGround(reactor, ports.ground, host=PROXY_FOR_GROUND, seed=seed)
         elif self._has_proxy:
             # From the aircraft's side of the link: "up" leaves the aircraft.
             self._reactor.targets[before.airborne] = ports.airborne

@@ -19,6 +19,7 @@ from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError, SettingsError
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import interrupts_between_steps
+from up_simulator.harness.two_paths import PathsUnavailableError
 from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
@@ -50,6 +51,7 @@ CAUSES: dict[type[Exception], str] = {
     SettingsError: "settings",
     BoardCrashedError: "board_crashed",
     BoardUnavailableError: "board_unavailable",
+    PathsUnavailableError: PathsUnavailableError.code,
     ParticipantError: "participant_failed",
     FlightUnavailableError: "flight_model_unavailable",
     PreparationError: "eeprom_preparation",

@@ -13,6 +13,9 @@ from up_simulator.aircraft.flight import Dynamics, FlightState
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.world import World
 from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.mavlink_ground import MavlinkGround
+from up_simulator.in_process.metrics_reader import MetricsReader
+from up_simulator.radio.goggles import Goggles
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import Participants
 from up_simulator.scenario.scenario import Scenario
@@ -41,7 +44,7 @@ def columns_of(scenario: Scenario) -> list[str]:
 def sources_of(scenario: Scenario) -> set[str]:
     """Return the first parts of the names of signals that the parts of this flight have."""
     sources = {"time_s", "truth", "stick", "servo"}
-    if scenario.board != "direct":
+    if scenario.has_arduino:
         sources |= {"board", "demand", "error", "estimate_error"}
     if scenario.has_raspilot:
         sources.add("raspilot")
@@ -49,6 +52,12 @@ def sources_of(scenario: Scenario) -> set[str]:
         sources.add("phone")
     if scenario.ground is not None:
         sources |= {"ground", "distance"}
+    if scenario.goggles is not None:
+        sources.add("goggles")
+    if scenario.metrics:
+        sources.add("metrics")
+    if scenario.mavlink:
+        sources.add("mavlink")
     return sources
 
 
@@ -94,6 +103,12 @@ class Sampler:
             values.update(_ground(participants.ground, participants.seconds()))
             values.update(self._flat_of(participants.ground.telemetry))
             values.update(_distances(values))
+        if participants.goggles is not None:
+            values.update(_goggles(participants.goggles, values))
+        if participants.metrics is not None:
+            values.update(_metrics(participants.metrics, participants.seconds()))
+        if participants.mavlink is not None:
+            values.update(_mavlink(participants.mavlink, participants.seconds(), values))
         return values
 
     def _flat_of(self, telemetry: Mapping[str, Any]) -> Values:
@@ -153,8 +168,36 @@ def _board(tap: LineMonitor, now_s: float) -> Iterable[tuple[str, Any]]:
 def _ground(ground: InProcessGround, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "ground.frames", ground.frames
     yield "ground.connected", ground.is_connected
+    yield "ground.in_control", ground.is_in_control
     yield "ground.age_s", None if ground.newest_s is None else now_s - ground.newest_s
     yield "ground.latency_s", ground.take_latency_s()
+
+
+def _goggles(goggles: Goggles, values: Values) -> Iterable[tuple[str, float | str | None]]:
+    for name in ("mode", "warning", "satellites", "altitude_m", "errors"):
+        yield f"goggles.{name}", getattr(goggles, name)
+    yield "goggles.bytes", goggles.received
+    shown_m, home_m = goggles.altitude_m, values.get("ground.home.altitude")
+    truth_m = values["truth.altitude_m"]
+    if shown_m is not None and isinstance(home_m, float) and isinstance(truth_m, float):
+        yield "goggles.altitude_error_m", shown_m - (truth_m - home_m)
+
+
+def _metrics(reader: MetricsReader, now_s: float) -> Iterable[tuple[str, float | None]]:
+    yield "metrics.age_s", None if reader.newest_s is None else now_s - reader.newest_s
+    yield "metrics.figures", len(reader.values)
+    yield from ((f"metrics.{name}", value) for name, value in reader.values.items())
+
+
+def _mavlink(
+    ground: MavlinkGround, now_s: float, values: Values
+) -> Iterable[tuple[str, float | str | None]]:
+    for name in ("mode", "ack", "altitude_m", "errors"):
+        yield f"mavlink.{name}", getattr(ground, name)
+    yield "mavlink.age_s", None if ground.newest_s is None else now_s - ground.newest_s
+    truth_m = values["truth.altitude_m"]
+    if ground.altitude_m is not None and isinstance(truth_m, float):
+        yield "mavlink.altitude_error_m", ground.altitude_m - truth_m
 
 
 def _distances(values: Values) -> Iterable[tuple[str, float]]:

@@ -69,10 +69,12 @@ class GroundPart:
     period_ms: int | None = key(
         None, "Requested telemetry period.", unit="ms", minimum=20, maximum=10_000
     )
-    through: Literal["listener", "proxy", "runner"] = key(
+    through: Literal["listener", "proxy", "two paths", "runner"] = key(
         "listener",
-        "listener: the port of Raspilot. proxy: the relay between the two. runner: the proxy, and"
-        " the phone requests Raspilot from the runner. The last two are real programs.",
+        "listener: the port of Raspilot. proxy: the relay between the two. two paths: the proxy in"
+        " a network that the aircraft reaches by two interfaces, which needs root. runner: the"
+        " proxy, and the phone requests Raspilot from the runner. All but the first are real"
+        " programs.",
     )
 
 
@@ -112,6 +114,13 @@ class ControlPart:
             yield "fails", "must name the expectations that fail in the control run"
 
 
+_ARDUINOS = frozenset(
+    ("imu", "imu_errors", "channel_lost", "channel_back", "reset", "serial", "serial_noise",
+     "flight_battery")
+)  # fmt: skip
+"""Events that nothing of a Betaflight board carries out."""
+
+
 @dataclass(frozen=True, slots=True)
 class Scenario:
     """One flight: its initial state, its events, its expectations."""
@@ -130,11 +139,12 @@ class Scenario:
     )
     seed: int = key(1, "Seed of turbulence and all noise.", minimum=0, maximum=2**31 - 1)
     duration_s: float = key(30.0, "Duration of the flight.", unit="s", minimum=0.1, maximum=3600)
-    board: Literal["auto", "firmware", "host", "direct"] = key(
+    board: Literal["auto", "firmware", "host", "direct", "betaflight"] = key(
         "auto",
         "The flight computer. firmware: the compiled firmware on a simulated ATmega328P. host: the"
         " same source compiled for this machine. auto: firmware if it can be built, otherwise host."
-        " direct: no flight computer, the receiver is connected to the servos.",
+        " direct: no flight computer, the receiver is connected to the servos. betaflight:"
+        " Betaflight's own program, betaflight_SITL on the search path.",
     )
     eeprom: Literal["prepared", "blank", "spoiled"] = key(
         "prepared",
@@ -161,10 +171,25 @@ class Scenario:
     raspilot: RaspilotPart = section(RaspilotPart)
     phone: PhonePart | None = section(PhonePart, optional=True)
     gps: GpsPart | None = section(GpsPart, optional=True)
+    crsf: tuple[str, ...] = items(
+        Constraint(str, max_length=32),
+        "A CRSF receiver at the Raspberry Pi, which crsf.yml then names: the flight modes of its"
+        " switch at low, middle, high; an empty name selects nothing. In process only.",
+        max_length=3,
+    )
     sensors: tuple[str, ...] = items(
         Constraint(str, choices=tuple(CHIPS)),
         "Chips at the I2C bus of the Raspberry Pi, which sensors.yml then names; in process only.",
         max_length=8,
+    )
+    goggles: Literal["30x16", "50x18", "53x20"] | None = key(
+        None, "Goggles at a serial port of the Raspberry Pi, which osd.yml then names; their grid."
+    )
+    metrics: bool = key(
+        False, "Whether the metrics of the daemon (metrics.yml) are read every second."
+    )
+    mavlink: bool = key(
+        False, "Whether a ground station that speaks MAVLink is connected by TCP, as an operator."
     )
     ground: GroundPart | None = section(GroundPart, optional=True)
     link: LinkPart = section(LinkPart)
@@ -180,10 +205,35 @@ class Scenario:
     def problems(self) -> Iterator[tuple[str, str]]:
         if not self.title:
             yield "title", "must be a short title of the flight"
-        if self.sensors and self.is_real:
-            yield "sensors", "fly only with 'runs: in process'"
+        if self.board == "betaflight" and not (self.is_real and self.ground):
+            yield "board", "betaflight needs 'raspilot: {runs: real}' and a ground"
+        if self.board == "betaflight" and (self.profile or self.gains):
+            yield "board", "profile and gains are the Arduino's: betaflight has other settings"
+        if self.board == "betaflight":
+            for kind in sorted({each.kinds[0] for each in self.events if each.kinds} & _ARDUINOS):
+                yield "events", f"betaflight has no {kind}: it is an event of the Arduino alone"
+        for name in ("crsf", "sensors"):
+            if getattr(self, name) and self.is_real:
+                yield name, "fly only with 'runs: in process'"
+        for name in ("goggles", "metrics", "mavlink"):
+            if getattr(self, name) and not self.has_raspilot:
+                yield name, "needs a Raspberry Pi: add 'raspilot: {runs: in process}'"
+            if getattr(self, name) and self.through == "runner":
+                yield name, "no runner has it: use 'ground: {through: proxy}'"
+        if self.through == "two paths" and self.link != LinkPart():
+            yield "link", "the two paths are no simulated link: use the event 'path: cut'"
         if not self.expect:
             yield "expect", "must contain at least one expectation"
+
+    @property
+    def through(self) -> str:
+        """Return what the ground station is connected to; without one the listener."""
+        return "listener" if self.ground is None else self.ground.through
+
+    @property
+    def has_arduino(self) -> bool:
+        """Return whether our firmware flies, with its serial line."""
+        return self.board not in ("direct", "betaflight")
 
     @property
     def is_real(self) -> bool:

@@ -30,6 +30,14 @@ _VALUES: dict[str, tuple[str, ...]] = {
     "ground.mode": ("flight controller", "black box", "black box (provisional)"),
     "ground.flight_mode": _MODES,
     "ground.flight_controller": ("arduino", "raspberry"),
+    "mavlink.ack": (
+        "ACCEPTED",
+        "TEMPORARILY_REJECTED",
+        "DENIED",
+        "UNSUPPORTED",
+        "FAILED",
+        "IN_PROGRESS",
+    ),
 }
 _SEPARATORS = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
 """Separators for signals that may have several values at a time."""
@@ -182,11 +190,37 @@ def _ground() -> Iterator[Signal]:
     )
     yield Signal("ground.frames", "number of telemetry frames received")
     yield Signal("ground.connected", "it has a connection, to its knowledge", kind=_FLAG)
+    yield Signal("ground.in_control", "it has control at the proxy", kind=_FLAG)
     for field in FIELDS:
         if field.type != "object":
             about = f"telemetry {field.path} (docs/protocols.md 6)"
             kind = _KINDS.get(field.type, Kind.TEXT)
             yield Signal(f"ground.{field.path}", about, field.unit, kind)
+
+
+def _adapters() -> Iterator[Signal]:
+    places = "at the places of the shipped osd.yml"
+    yield Signal("goggles.mode", f"the shown flight mode, {places}", kind=_TEXT)
+    yield Signal("goggles.warning", f"the shown warning, {places}; empty: none", kind=_TEXT)
+    yield Signal("goggles.satellites", "the shown number of satellites, or dashes", kind=_TEXT)
+    yield Signal("goggles.altitude_m", "the shown height above home", "m")
+    yield Signal(
+        "goggles.altitude_error_m",
+        "the shown height minus the true one above the home that telemetry reports",
+        "m",
+    )
+    yield Signal("goggles.bytes", "bytes received")
+    yield Signal("goggles.errors", "frames that no goggles understand")
+    yield Signal("metrics.age_s", "since the newest page of metrics arrived", "s")
+    yield Signal("metrics.figures", "number of figures on it")
+    yield Signal(
+        "mavlink.mode", "flight mode in the aircraft's heartbeat, as ArduPlane's", kind=_TEXT
+    )
+    yield Signal("mavlink.ack", "answer to the newest selection of a mode; empty: none", kind=_TEXT)
+    yield Signal("mavlink.altitude_m", "altitude above the sea that it shows", "m")
+    yield Signal("mavlink.altitude_error_m", "that altitude minus the true one", "m")
+    yield Signal("mavlink.age_s", "since the newest heartbeat of the aircraft", "s")
+    yield Signal("mavlink.errors", "received data that are no packets")
 
 
 def _all() -> Iterator[Signal]:
@@ -198,20 +232,22 @@ def _all() -> Iterator[Signal]:
     yield from _daemon()
     yield from _distance()
     yield from _ground()
+    yield from _adapters()
 
 
 EVENT_COLUMN = "event"
 """Last column of the log: the events since the previous row, empty if none."""
 SIGNALS = {signal.name: signal for signal in _all()}
-FREE_PREFIX = "ground.counters."
-"""Prefix of the counters of the modules."""
+FREE_PREFIXES = {"ground.counters.": 3, "metrics.up_telemetry.": 2, "metrics.up_counters.": 3}
+"""Prefixes of the counters of the modules and of metrics, and the least number of dots."""
 
 
 def signal_of(name: str) -> Signal:
     """Return the signal of that name; raises KeyError with a sentence that suggests another."""
     if name in SIGNALS:
         return SIGNALS[name]
-    if name.startswith(FREE_PREFIX) and name.count(".") >= 3 and not name.endswith("."):
+    dots = next((each for prefix, each in FREE_PREFIXES.items() if name.startswith(prefix)), None)
+    if dots is not None and name.count(".") >= dots and not name.endswith("."):
         return Signal(name, f"telemetry {name.partition('.')[2]}")
     same_end = (each for each in SIGNALS if each.rpartition(".")[2] == name.lower())
     near = suggestion(name, SIGNALS) or suggestion(next(same_end, ""), SIGNALS)

@@ -17,9 +17,13 @@ from typing import TextIO
 from up.config import ConfigErrors
 from up.fields import printable
 from up.output import StatusLine, print_problems
+from up_simulator.betaflight.board import find_program
+from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.harness.child import request_death_signal
+from up_simulator.harness.two_paths import PathsUnavailableError, check_paths
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
+from up_simulator.scenario.scenario import Scenario
 from up_simulator.verbs.catalogue import (
     HELD,
     INTERRUPTED,
@@ -48,11 +52,15 @@ examples:
 
 @dataclass(slots=True)
 class Job:
-    """One scenario in a separate process; ``memory_mib`` is its peak memory."""
+    """One scenario in a separate process; ``memory_mib`` is its peak memory.
+
+    ``missing`` is a sentence about what it needs and this machine lacks.
+    """
 
     path: Path
     is_real: bool
     folder: Path
+    missing: str = ""
     process: subprocess.Popen[bytes] | None = None
     began_s: float = 0.0
     took_s: float = 0.0
@@ -100,6 +108,7 @@ def main(arguments: Sequence[str]) -> int:
     if jobs is None:
         return WRONG_INPUT
     try_output(options.output, [job.name for job in jobs])
+    jobs = _without_missing(jobs)
     began_s = time.monotonic()
     batch = Batch(jobs, options, sys.stderr)
     is_interrupted = False
@@ -129,12 +138,32 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
         tags.update(scenario.tags)
         if set(options.tag) <= set(scenario.tags):
             flights = 1 if scenario.control is None else 2
-            job = Job(path, scenario.is_real, options.output / name_of(path))
+            folder = options.output / name_of(path)
+            job = Job(path, scenario.is_real, folder, _missing(scenario))
             jobs.append((-scenario.duration_s * flights, job))
     if options.tag and not jobs and not has_mistakes:
         raise no_such_tag(options.tag, tags)
     jobs.sort(key=lambda each: (each[1].is_real, each[0], each[1].name))
     return None if has_mistakes else [job for _, job in jobs]
+
+
+def _without_missing(jobs: list[Job]) -> list[Job]:
+    """Return the flights that this machine can fly; the others are named and left out."""
+    for job in jobs:
+        if job.missing:
+            sys.stderr.write(f"up-sim: {job.name} is left out: {job.missing}\n")
+    return [job for job in jobs if not job.missing]
+
+
+def _missing(scenario: Scenario) -> str:
+    try:
+        if scenario.board == "betaflight":
+            find_program()
+        if scenario.through == "two paths":
+            check_paths()
+    except (BoardUnavailableError, PathsUnavailableError) as error:
+        return str(error)
+    return ""
 
 
 class Batch:

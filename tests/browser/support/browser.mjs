@@ -1,4 +1,4 @@
-// Debian's Chromium without a screen, and pages that keep what they were asked and complained of.
+// Debian's Chromium for machines without a screen, and pages that keep what they were asked and complained of.
 import { chromium } from "playwright-core";
 
 /** Flags against connections that the browser opens automatically. */
@@ -25,7 +25,7 @@ export const PHONE = {
  */
 export async function startBrowser(flags = []) {
   return chromium.launch({
-    executablePath: process.env.UP_CHROMIUM ?? "/usr/bin/chromium",
+    executablePath: process.env.UP_CHROMIUM ?? "/usr/bin/chromium-headless-shell",
     headless: true,
     args: [...FLAGS, ...flags],
   });

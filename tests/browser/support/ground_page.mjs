@@ -156,8 +156,8 @@ export class GroundPage {
     }
   }
 
-  /** Do something and return the answer, and what the page shows of it. */
-  async answerTo(action) {
+  /** Do something and return the first answer, and what the page shows of it. */
+  async firstAnswerTo(action) {
     const before = (await this.messages("answer")).length;
     await action();
     const count = () => window.testMessages.filter(({ message }) => message.type === "answer").length;
@@ -171,16 +171,24 @@ export class GroundPage {
     };
   }
 
-  /** Select a flight mode by its button until it is taken: on a busy machine a reading may be too old now. */
-  async fly(mode) {
+  /** As firstAnswerTo, again while only a busy machine made a reading or the beacon too old. */
+  async answerTo(action) {
     for (;;) {
-      const isOffered = (mode) => document.querySelector(`[data-mode="${mode}"]`)?.disabled === false;
-      await this.until(isOffered, `${mode} offered`, mode);
-      const answer = await this.answerTo(() => this.press(`[data-mode="${mode}"]`));
-      if (answer.detail !== "reading_stale") {
+      const answer = await this.firstAnswerTo(action);
+      if (answer.detail !== "reading_stale" && answer.code !== "stale") {
         return answer;
       }
+      await this.isLive();
     }
+  }
+
+  /** Select a flight mode by its button. */
+  async fly(mode) {
+    return this.answerTo(async () => {
+      const isOffered = (mode) => document.querySelector(`[data-mode="${mode}"]`)?.disabled === false;
+      await this.until(isOffered, `${mode} offered`, mode);
+      await this.press(`[data-mode="${mode}"]`);
+    });
   }
 
   /**
@@ -197,9 +205,10 @@ export class GroundPage {
       if (how === "done") {
         return;
       }
-      // A machine that is busy elsewhere holds the page up, or moves the button late from under the
-      // pointer: both make a press void on purpose.
-      assert.match(code, /^(page_delayed|pointer_left)$/);
+      // A machine that is busy elsewhere holds the page or the telemetry up, or moves the button late
+      // from under the pointer: each makes a press void on purpose.
+      assert.match(code, /^(page_delayed|pointer_left|silent)$/);
+      await this.isLive();
     }
   }
 

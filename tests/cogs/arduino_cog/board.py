@@ -19,10 +19,10 @@ from arduino_cog.modules.arduino_requests import (
     ArduinoCalibration,
     ArduinoFlightMode,
 )
-from arduino_cog.modules.flight_battery import FlightBattery
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 from serial_cog.modules.serial_provider import SerialProvider
 
+from raspilot.modules.flight_battery import FlightBattery
 from tests.cogs.serial_cog.rig import Rig
 from up.commands.origin import INTERNAL
 from up.protocols.general_message import decode

@@ -19,22 +19,16 @@ from twisted.logger import globalLogPublisher
 from tests.cogs.mission_control_cog.hostile_relay import Ground, pair
 from tests.cogs.mission_control_cog.system import Aircraft
 from tests.cogs.mission_control_cog.test_uplink import OK, accepted
-from tests.cogs.mission_control_cog.two_paths import (
-    BEST,
-    PROXY,
-    PROXY_FOR_GROUND,
-    SPARE,
-    swallow,
-    two_paths,
-)
+from tests.cogs.mission_control_cog.two_paths import two_paths
 from tests.cogs.peers import Server
-from tests.proxy.namespace import light, must
+from tests.proxy.namespace import must
 from tests.proxy.program import Program
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.config import ConfigErrors
 from up.protocols.general_message import encode
 from up_ground.settings import Seat
+from up_simulator.harness.two_paths import BEST, PROXY, PROXY_FOR_GROUND, SPARE
 
 
 class Connection:
@@ -165,7 +159,8 @@ def test_an_interface_that_is_absent_fails_the_attempt_with_its_name():
         endpoint = TCP4ClientEndpoint(OnInterface(reactor, "absent0"), "127.0.0.1", 9)
         with pytest.raises(ConnectError) as failed:
             await endpoint.connect(Factory.forProtocol(Protocol))
-        assert failed.value.osError == errno.ENODEV
+        assert (failed.value.osError, failed.value.code) == (errno.ENODEV, "interface_missing")
+        assert "absent0" in str(failed.value)
 
     run_in_reactor(fly)
 
@@ -198,7 +193,7 @@ def test_the_link_moves_and_returns_and_the_ground_keeps_control_and_session(tmp
         if event.get("code") in ("path_silent", "better_path", "link_lost"):
             left.append(event["code"])
 
-    async def fly(inside, proxy):
+    async def fly(paths, proxy):
         async with Aircraft(tmp_path / "a", None, text % proxy.airborne_port) as a:
             ground = Ground(tmp_path, proxy.ground_port, pairing, host=PROXY_FOR_GROUND)
             await ground.ready()
@@ -222,9 +217,9 @@ def test_the_link_moves_and_returns_and_the_ground_keeps_control_and_session(tmp
 
             await moved(BEST)
             await spare_is_healthy()
-            swallow(inside, BEST)
+            paths.cut()
             await moved(SPARE)
-            light(inside)
+            paths.restore()
             await moved(BEST)
             await spare_is_healthy()
             must("ip", "link", "set", BEST, "down")
@@ -241,8 +236,8 @@ def test_the_link_moves_and_returns_and_the_ground_keeps_control_and_session(tmp
 
     globalLogPublisher.addObserver(log)
     try:
-        with two_paths() as inside, Program(tmp_path / "p", prefix=inside) as proxy:
-            run_in_reactor(lambda: fly(inside, proxy), timeout_s=60)
+        with two_paths() as paths, Program(tmp_path / "p", prefix=paths.inside) as proxy:
+            run_in_reactor(lambda: fly(paths, proxy), timeout_s=60)
     finally:
         globalLogPublisher.removeObserver(log)
     assert left == ["path_silent", "better_path", "path_silent"]

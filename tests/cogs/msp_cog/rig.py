@@ -9,10 +9,12 @@ from unittest import mock
 from msp_cog import messages
 from msp_cog.modules.msp_board import MspBoard
 from msp_cog.modules.msp_output import MspOutput
+from twisted.internet.defer import Deferred
 
 from tests.cogs.msp_cog.recorded import ANSWERS
 from tests.cogs.serial_cog.rig import STEP_S, VirtualReactor, run
 from tests.support.system import build_up, started
+from up.protocols.serial_line import LAST_FRAME_S
 from up.providers.up_location_provider import UpLocationProvider
 from up.providers.up_orientation_provider import UpOrientationProvider
 
@@ -25,7 +27,7 @@ def reply(number, payload, direction=b">"):
 class Rig:
     """``heard`` has the messages to the board that request nothing; ``answers`` may be changed."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, modules=(), **files):
         self.answers, self.heard, self.unread = dict(ANSWERS), [], b""
         self.refused, self.lost_every, self.replies = set(), 0, 0
         # A pair of sockets: the other end has immediately what one sends.
@@ -33,10 +35,12 @@ class Rig:
         for each in (self.end, self.port):
             each.setblocking(False)
         self.reactor = VirtualReactor()
-        files = {"config.yml": "flight controller: msp\n"}
+        config = {f"{name}.yml": text for name, text in files.items()}
+        config["config.yml"] = "flight controller: msp\n"
         self._opener = mock.patch("msp_cog.modules.msp_board.open_line", lambda *_: self.end)
         self._opener.start()
-        self.up = build_up([MspBoard, MspOutput], self.reactor, folder / "config", config=files)
+        loaded = [MspBoard, MspOutput, *modules]
+        self.up = build_up(loaded, self.reactor, folder / "config", config=config)
         self.board = self.up.get_module(MspBoard)
         self.orientation = self.up.get_module(UpOrientationProvider)
         self.location = self.up.get_module(UpLocationProvider)
@@ -57,7 +61,9 @@ class Rig:
         return taken
 
     def stop(self):
-        run(self.life.stop())
+        stopped = Deferred.fromCoroutine(self.life.stop())
+        self.reactor.advance(LAST_FRAME_S)
+        assert stopped.called
         self._opener.stop()
         with suppress(BrokenPipeError):
             self._answer()

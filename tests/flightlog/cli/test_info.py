@@ -1,5 +1,7 @@
 """``up log info``, ``report``, and the folder that every verb reads."""
 
+import json
+
 import pytest
 
 from tests.flightlog.logbook import EVIL, eventful, write_flight
@@ -31,6 +33,9 @@ def test_faults_come_first(log, flights):
     titles = [line for line in out.splitlines() if line and not line.startswith(" ")][1:]
     assert titles[0] == "faults" and titles[-1] == "file problems"
     assert f"look {EVIL}" in out
+    found = json.loads(log("info", "last", "--json").out)
+    assert found["is_complete"] is False and found["number"] == 1
+    assert {"level", "code", "time_s", "fields"} <= set(found["findings"][0])
 
 
 def test_control_characters_are_escaped(log, flights):

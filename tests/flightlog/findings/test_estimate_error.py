@@ -6,7 +6,7 @@ import pytest
 
 from tests.flightlog.flights import BOARD, PHONE, FlightMaker, OrientationCommand
 from up_flightlog.findings.detectors import findings
-from up_flightlog.findings.estimate_error import estimate_errors
+from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.summary import summarise
 
 FLOWN_S = 20.0
@@ -64,20 +64,22 @@ def test_worst_and_rms_of_each_axis_with_code_and_fields(tmp_path):
 
 def test_an_error_up_to_two_degrees_is_not_a_finding(tmp_path):
     log = flown(tmp_path, level, lambda time_s: (2.0, -1.9))
-    assert [each.worst_deg for each in estimate_errors(log)] == pytest.approx([2.0, 1.9])
+    assert [each.worst_deg for each in FlightContext(log).estimate_errors] == pytest.approx(
+        [2.0, 1.9]
+    )
     assert [each for each in findings(log)] == []
 
 
 def test_a_late_estimate_is_not_an_error(tmp_path):
-    roll, _ = estimate_errors(flown(tmp_path, rolling, rolling, late_s=0.04))
+    roll, _ = FlightContext(flown(tmp_path, rolling, rolling, late_s=0.04)).estimate_errors
     assert roll.worst_deg < 0.1
-    roll, _ = estimate_errors(flown(tmp_path, rolling, rolling, late_s=0.2))
+    roll, _ = FlightContext(flown(tmp_path, rolling, rolling, late_s=0.2)).estimate_errors
     assert roll.worst_deg > 10
 
 
 def test_an_error_across_180_degrees(tmp_path):
     log = flown(tmp_path, lambda time_s: (179.5, 0.0), lambda time_s: (-178.5, 0.0))
-    assert [each.worst_deg for each in estimate_errors(log)] == [2.0, 0.0]
+    assert [each.worst_deg for each in FlightContext(log).estimate_errors] == [2.0, 0.0]
 
 
 def test_an_error_of_180_degrees_is_not_zero(tmp_path):
@@ -85,7 +87,9 @@ def test_an_error_of_180_degrees_is_not_zero(tmp_path):
         return 100 * time_s + 180, 0.0
 
     # The error itself passes 180 deg within the time that is compared.
-    roll, _ = estimate_errors(flown(tmp_path, lambda time_s: (100 * time_s, 0.0), upside_down))
+    roll, _ = FlightContext(
+        flown(tmp_path, lambda time_s: (100 * time_s, 0.0), upside_down)
+    ).estimate_errors
     assert roll.worst_deg > 170
 
 
@@ -95,11 +99,11 @@ def test_only_the_selected_source_counts(tmp_path):
         maker.add(tick / 20, "simulator.truth", roll_deg=0.0, pitch_deg=0.0)
         maker.put(tick / 20, OrientationCommand(1.0, 0.0, 0.0, 0, 0, 0), BOARD)
         maker.put(tick / 20, OrientationCommand(9.0, 0.0, 0.0), PHONE)
-    roll, _ = estimate_errors(maker.log(tmp_path))
+    roll, _ = FlightContext(maker.log(tmp_path)).estimate_errors
     assert roll.worst_deg == 1.0
 
 
 def test_a_flight_without_truth_has_no_errors(tmp_path):
     maker = FlightMaker()
     maker.quiet_flight()
-    assert list(estimate_errors(maker.log(tmp_path))) == []
+    assert FlightContext(maker.log(tmp_path)).estimate_errors == []

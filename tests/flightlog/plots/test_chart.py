@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from up_flightlog.plots.chart import Curve, Panel, broken, drawable, thinned, usual_gap_s
@@ -33,6 +33,7 @@ def test_what_no_axis_can_show_is_left_open():
 
 
 @settings(deadline=None)
+@example([0.0] * 9 + [math.inf, -math.inf], 10)
 @given(VALUES, st.integers(10, 50))
 def test_thinning_keeps_order_peaks_and_silences(values, limit):
     times_s = [float(at) for at in range(len(values))]

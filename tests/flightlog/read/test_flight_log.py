@@ -11,6 +11,7 @@ from mcap.writer import Writer as OfficialWriter
 from tests.flightlog.logs import START_NS, LogMaker, small_log
 from up.flight_log.mcap_format import MAGIC, FlightLogError
 from up_flightlog.read.flight_log import FlightLog, LoggedMessage
+from up_flightlog.read.log_summary import summary_topics
 
 SMALL = small_log()
 
@@ -319,3 +320,36 @@ def test_written_messages_are_read(folder, messages, split):
     assert told == pytest.approx([(each[0] - first) / 1e9 for each in expected])
     for topic in "abc":
         assert [m.data for m in log.messages(topic)] == [d for _, t, d in expected if t == topic]
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    times_ms=st.lists(st.integers(0, 3000), min_size=1, max_size=60),
+    rate_hz=st.sampled_from([0.7, 1, 3, 10, 1000]),
+)
+def test_a_rate_leaves_the_newest_messages_before_each_tick(folder, times_ms, rate_hz):
+    maker = LogMaker()
+    for number, time_ms in enumerate(sorted([0, *times_ms])):
+        maker.add(time_ms / 1000, "ab"[number % 2], number=number)
+    log = maker.log(folder)
+
+    def newest(messages, tick_s):
+        return {each.topic: each.data for each in messages if each.time_s <= tick_s}
+
+    everything, found = list(log.messages()), list(log.messages(rate_hz=rate_hz))
+    for tick in range(int(log.length_s * rate_hz) + 1):
+        assert newest(found, tick / rate_hz) == newest(everything, tick / rate_hz)
+    assert len(found) <= 2 * (log.length_s * rate_hz + 2)
+
+
+def test_the_topics_are_known_from_the_end_of_the_file_alone(tmp_path):
+    path = tmp_path / "flight.mcap"
+    whole = small_log()
+    path.write_bytes(whole)
+    assert summary_topics([path, path]) == set(FlightLog.read([path]).topics)
+    # What is before the summary is not read.
+    path.write_bytes(whole[:20] + bytes(200) + whole[220:])
+    assert summary_topics([path]) == {"up.orientation.update", "up.altitude.change"}
+    for damaged in (whole[:-1], whole[:-40] + b"x" + whole[-39:], b"", MAGIC):
+        path.write_bytes(damaged)
+        assert summary_topics([path]) is None

@@ -90,6 +90,8 @@ def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
         (("--aircraft", "a/b"), "invalid_aircraft"),
         (("--aircraft", "a", "--aircraft", "a"), "duplicate_aircraft"),
         (("--aircraft", "a@h:0"), "invalid_aircraft"),
+        (("--aircraft", "<b>a"), "invalid_aircraft"),
+        (("--paired",), "not_paired"),
         (("--key", "short"), "argument --key"),
         (("--name", "a b"), "argument --name"),
         (("--tiles", "http://tiles.example/{z}/{x}.png"), "invalid_tiles"),

@@ -67,7 +67,7 @@ def _named(module: Path) -> list[str]:
     return [*imports, *_PART.findall(text)]
 
 
-@pytest.fixture(params=["index.html", "overlay.html"])
+@pytest.fixture(params=["index.html", "overlay.html", "log.html"])
 def page(request: pytest.FixtureRequest) -> _Page:
     return _Page((STATIC / request.param).read_text(encoding="utf-8"))
 
@@ -106,7 +106,7 @@ def test_every_import_of_a_module_resolves(module: Path) -> None:
 
 def test_every_module_is_reached_from_the_first_one_of_a_page() -> None:
     reached: set[Path] = set()
-    ahead = [STATIC / "js/main.js", STATIC / "js/overlay.js"]
+    ahead = [STATIC / "js/main.js", STATIC / "js/overlay.js", STATIC / "js/log/main.js"]
     while ahead:
         module = ahead.pop().resolve()
         if module not in reached and module.is_file():

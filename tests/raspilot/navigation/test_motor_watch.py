@@ -1,5 +1,7 @@
 """Each rule of the motor watch, on accelerations of an aircraft that is known exactly."""
 
+import math
+
 import pytest
 
 from raspilot.navigation.air_path import AirPoint
@@ -51,12 +53,32 @@ def test_a_stop_is_seen_the_sooner_the_more_thrust_is_missing(flight, thrust, al
 def test_the_first_ten_seconds_of_a_flight_are_not_judged():
     flight = Accelerations()
     assert flight.fly(9.8, error_m_s2=-2.4) is None
+    assert flight.fly(5) is None
     assert flight.fly(2, lost=1.0), "then it is seen, without any turn"
+
+
+def test_the_tilt_of_the_take_off_is_no_stop():
+    flight = Accelerations()
+    for second in range(40):
+        tilt_m_s2 = -0.7 * math.exp(-max(0.0, second - 18.0) / 5.0)
+        assert flight.fly(1, thrust=1.3 if second < 12 else 0.8, error_m_s2=tilt_m_s2) is None
+
+
+def test_an_error_larger_than_the_thrust_is_no_stop(flight):
+    for second in range(30):
+        drift_m_s2 = -0.5 * math.sin(second / 10.0)
+        assert flight.fly(1, thrust=0.15, error_m_s2=drift_m_s2) is None
+    assert flight.fly(2, thrust=2.5, lost=1.0), "seen when the throttle opens"
 
 
 @pytest.mark.parametrize("thrust", [LEVEL_M_S2, 2.5])
 def test_too_little_thrust_is_no_stop(flight, thrust):
     assert flight.fly(60, thrust=thrust, lost=0.4) is None
+
+
+def test_a_weak_motor_is_no_stop_when_the_throttle_moves(flight):
+    for second in range(30):
+        assert flight.fly(1, thrust=1.5 + math.sin(second), lost=0.4) is None
 
 
 def test_without_throttle_nothing_is_known(flight):

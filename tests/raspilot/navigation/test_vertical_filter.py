@@ -2,7 +2,7 @@
 
 import pytest
 
-from raspilot.navigation.vertical_filter import OFF_M, VerticalFilter
+from raspilot.navigation.vertical_filter import CLIMB_TAU_S, OFF_M, VerticalFilter
 
 PRESSURE_M = 45.0
 """The barometer's altitude less the true one."""
@@ -122,3 +122,39 @@ def test_another_run_of_the_program_continues_with_the_offset(before):
     level.filter.resume("phone", offset_m)
     assert level.fly(2, -4.0).error_m == pytest.approx(6.0, abs=0.5)
     assert level.fly(120, -4.0).error_m == pytest.approx(6.0, abs=0.5)
+
+
+def rising(until_s):
+    """Return a filter whose fixes rise by 1 m each second, which the model does not explain."""
+    found = VerticalFilter()
+    for second in range(until_s + 1):
+        found.fuse_fix(float(second), 0.0, 300.0 + second)
+    return found
+
+
+def test_without_fixes_the_climb_error_returns_to_zero():
+    lost = rising(40)
+    assert lost.climb_error_at(40.0) > 0.5
+    assert lost.climb_error_at(110.0) < 0.01
+    risen_m = lost.altitude_at(110.0, 0.0) - lost.altitude_m
+    assert risen_m == pytest.approx(CLIMB_TAU_S * lost.climb_error_at(40.0), rel=0.02)
+
+
+def test_the_deviation_without_fixes_grows_as_rising_air_displaces_an_aircraft():
+    lost = rising(40)
+    deviations = [lost.sd_at(40.0 + seconds) for seconds in (0.0, 30.0, 120.0)]
+    assert deviations[0] < 4.0
+    assert deviations[1] == pytest.approx(28.0, abs=5.0)
+    assert deviations[2] < 120.0, "not as that of a climb error that stays"
+
+
+def test_one_step_predicts_as_many_do():
+    one, many = rising(40), rising(40)
+    for tenth in range(1, 200):
+        many._advance(40.0 + 0.1 * tenth, 0.0)
+    for each in (one, many):
+        each._advance(60.0, 0.0)
+    assert many.altitude_m == pytest.approx(one.altitude_m)
+    assert many.climb_error_at(60.0) == pytest.approx(one.climb_error_at(60.0))
+    for row, other in zip(one._p, many._p, strict=True):
+        assert row == pytest.approx(other)

@@ -4,6 +4,7 @@ SITL's ports are fixed: whatever uses them is in this file, one after the other.
 """
 
 import json
+import os
 import signal
 import socket
 import time
@@ -16,6 +17,7 @@ from msp_cog.codec import encode
 from msp_cog.messages import SET_RAW_RC, pack_sticks
 
 from tests.simulator.program import Program
+from tests.simulator.scenarios.shipped import WITH_BETAFLIGHT, fly_real
 from tests.support.tools import need_peer
 from tests.support.virtual_environment import REPOSITORY
 from tests.support.waiting import until
@@ -124,6 +126,13 @@ def flight(tmp_path_factory):
         assert aircraft.end()[0] == 0
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WITH_BETAFLIGHT)
+def test_the_shipped_scenario_holds(name, tmp_path):
+    folders = (str(Path(need_peer("betaflight_SITL")).parent), os.environ["PATH"])
+    fly_real(name, tmp_path, PATH=os.pathsep.join(folders))
+
+
 def test_the_settings_that_the_cogs_page_advises_are_those_that_fly():
     page = (REPOSITORY / "cogs" / "msp_cog" / "README.md").read_text(encoding="utf-8")
     advised = page.split("```\n")[1].splitlines()
@@ -135,9 +144,16 @@ def test_without_the_program_and_without_its_settings_there_is_no_board(tmp_path
     flight = read_recording(None)
     with pytest.raises(BoardUnavailableError, match="no-such-program"):
         BetaflightBoard(flight, "no-such-program")
+    # A file without the right to be executed, and one that is not a program.
+    program = tmp_path / "sitl"
+    for mode in (0o644, 0o755):
+        program.write_bytes(b"\x7fELF")
+        program.chmod(mode)
+        with pytest.raises(BoardUnavailableError) as refused:
+            BetaflightBoard(flight, str(program))
+        assert "executed" in str(refused.value)
     # One that refuses the settings, and one that starts and sends no pulses, end immediately.
     for script in ("exit 1", "[ $# = 2 ]"):
-        program = tmp_path / "sitl"
         program.write_text(f"#!/bin/sh\n{script}\n")
         program.chmod(0o755)
         with pytest.raises(BoardUnavailableError, match="sitl"):

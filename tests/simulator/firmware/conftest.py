@@ -2,13 +2,15 @@
 
 import pytest
 
-from tests.simulator.firmware.pair import build_host_library
 from tests.support.firmware import build_firmware
+from tests.support.tools import need_tool
+from up_rig.build import build_host_library
 
 
 @pytest.fixture(scope="session")
 def library():
     """Return the build for this computer."""
+    need_tool("g++")
     return build_host_library()
 
 

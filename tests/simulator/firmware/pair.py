@@ -2,12 +2,9 @@
 
 import dataclasses
 import math
-from pathlib import Path
 
 import pytest
 
-from tests.support.firmware import ARDUINO, make
-from tests.support.tools import need_tool
 from up_rig.imu import motion_at
 from up_simulator.firmware.host_board import HostBoard
 from up_simulator.firmware.imu_errors import ImuErrors
@@ -16,13 +13,6 @@ from up_simulator.firmware.rig_board import RigBoard
 
 BOOT_MS = 1400
 STEP_US = 2000
-
-
-def build_host_library() -> Path:
-    """Return the host build."""
-    need_tool("g++")
-    make("host-library")
-    return ARDUINO / "build" / "libraspilot.so"
 
 
 class Aboard:

@@ -20,6 +20,13 @@ def recorder(logged):
     return lambda _text, *, code, reason: logged.append((code, reason))
 
 
+@pytest.fixture(autouse=True)
+def built_once():
+    """Let each test build for itself: a process builds once."""
+    rig_build.build_firmware.cache_clear()
+    rig_build.build_host_library.cache_clear()
+
+
 @pytest.fixture
 def no_avr(monkeypatch, tmp_path):
     """Take the AVR compiler out of the path."""
@@ -44,7 +51,9 @@ def test_the_firmware_is_not_substituted_on_request(no_avr):
 @pytest.fixture
 def elf():
     """Return the firmware's bytes, built while the tools are still there."""
-    return build_firmware().read_bytes()
+    content = build_firmware().read_bytes()
+    rig_build.build_firmware.cache_clear()
+    return content
 
 
 def test_without_the_avr_tools_an_earlier_firmware_flies(elf, no_avr):
@@ -67,7 +76,8 @@ def test_a_firmware_that_is_older_than_its_sources_does_not_fly(elf, no_avr):
 def no_compiler(monkeypatch, tmp_path):
     """Leave no compiler in the path."""
     need_tool("g++")
-    rig_build.make("host-library")
+    rig_build.build_host_library()
+    rig_build.build_host_library.cache_clear()
     library = tmp_path / "libraspilot.so"
     library.write_bytes(build.HOST_LIBRARY.read_bytes())
     monkeypatch.setattr(build, "HOST_LIBRARY", library)

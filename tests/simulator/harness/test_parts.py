@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from up_rig.build import build_host_library
 from up_simulator.aircraft import load_airframe
 from up_simulator.firmware import build
 from up_simulator.firmware.build import BoardUnavailableError
@@ -16,6 +17,7 @@ OPTIONS = {"framing": "checked", "elf": None, "gains": None, "seed": 1}
 
 @pytest.fixture
 def no_compiler(monkeypatch, tmp_path):
+    build_host_library.cache_clear()
     (tmp_path / "bin").mkdir()
     for name in ("make", "sh"):
         (tmp_path / "bin" / name).symlink_to(shutil.which(name))

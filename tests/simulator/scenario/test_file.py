@@ -151,6 +151,13 @@ def test_all_problems_are_reported_together():
          "4 events[0].raspilot"),
         ("raspilot: {runs: real}\nground: {through: runner}\nphone: {orientation: udp}\n",
          "5 phone.orientation"),
+        ("raspilot: {runs: in process}\nground: {}\nevents: [{at_s: 1, path: cut}]\n",
+         "5 events[0].path"),
+        ("raspilot: {runs: real}\nground: {through: two paths}\nevents: [{at_s: 1, link: stall}]\n",
+         "5 events[0].link"),
+        ("goggles: 50x18\n", "3 goggles"),
+        ("raspilot: {runs: in process}\nevents: [{at_s: 1, mavlink: RTL}]\n",
+         "4 events[0].mavlink"),
         ("raspilot: {config: {config.yml: {mod: auto}}}\n", "3 raspilot.config.config.yml"),
         ("raspilot: {config: {confg.yml: {}}}\n", "3 raspilot.config"),
         ("control: {mode: ACRO, fails: [It flys]}\n", "3 control.fails[0]"),
@@ -165,6 +172,13 @@ def test_all_problems_are_reported_together():
 def test_a_problem_has_its_place(part, place):
     (found,) = problems(HEAD + part + EXPECT)
     assert place_of(found) == place
+
+
+@pytest.mark.parametrize("event", ["channel_lost: throttle", "imu: frozen", "reset: watchdog"])
+def test_an_event_that_no_betaflight_board_carries_out_is_a_problem(event):
+    betaflight = IN_PROCESS.replace("in process", "real") + "board: betaflight\n"
+    text = f"{betaflight}events: [{{at_s: 1, {event}}}]\n{EXPECT}"
+    assert [each.key for each in problems(text)] == ["events"]
 
 
 @pytest.mark.parametrize(

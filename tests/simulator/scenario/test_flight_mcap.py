@@ -14,7 +14,7 @@ from mcap.reader import make_reader
 from tests.simulator.scenario.minimal import log_of, scenario
 from tests.support.firmware import build_firmware
 from up_flightlog.findings.detectors import findings
-from up_flightlog.findings.estimate_error import estimate_errors
+from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import frames
 from up_simulator.cli import main
@@ -128,7 +128,7 @@ def test_metadata_name_aircraft_scenario_and_verdicts(flown):
 def test_the_flight_log_finds_failures_and_telemetry_in_it(flown):
     log = FlightLog.read([flown / "first/flown/flight.mcap"])
     assert {"receiver_lost", "failsafe"} <= {finding.code for finding in findings(log)}
-    assert [each.axis for each in estimate_errors(log)] == ["roll", "pitch"]
+    assert [each.axis for each in FlightContext(log).estimate_errors] == ["roll", "pitch"]
     newest = list(frames(log))[-1].data
     assert newest["flight_mode"] and newest["arduino"]["failsafe"] is True
     assert newest["location"]["latitude"] == pytest.approx(50.0, abs=0.01)

@@ -30,6 +30,16 @@ def taken(participants, is_in):
     plug(participants, is_in)
 RealParticipants.plug_serial = taken
 """
+SLOWED = """
+import time
+from up_simulator.scenario.flight import ScenarioFlight
+step = ScenarioFlight.step
+def slow(flight):
+    if flight._steps % 100 == 0:
+        time.sleep(0.5)
+    step(flight)
+ScenarioFlight.step = slow
+"""
 FLY = """
 import sys
 from up_simulator.cli import main
@@ -62,6 +72,7 @@ def test_a_daemon_that_fails_is_reported_with_its_newest_log_lines():
     assert done.returncode == 1 and "SerialProvider" in done.stdout
     summary = json.loads(Path("out/real/summary.json").read_text())
     assert summary["held"] is False and summary["failure_code"] == "participant_failed"
+    assert "not_real_time" not in summary["notes"]
 
 
 def test_a_serial_line_that_cannot_be_reopened_fails_the_flight():
@@ -70,3 +81,10 @@ def test_a_serial_line_that_cannot_be_reopened_fails_the_flight():
     assert done.returncode == 1
     summary = json.loads(Path("out/real/summary.json").read_text())
     assert summary["failure_code"] == "serial_line" and summary["failure"] in done.stdout
+
+
+def test_a_flight_that_was_not_in_real_time_is_noted():
+    done = fly(SLOWED)
+    summary = json.loads(Path("out/real/summary.json").read_text())
+    assert summary["speed"] < 0.9 and summary["notes"].keys() == {"not_real_time"}
+    assert summary["notes"]["not_real_time"] in done.stdout

@@ -1,6 +1,7 @@
 """The program: verbs, exit statuses and its output."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -232,6 +233,30 @@ def test_a_new_scenario_that_cannot_be_written_is_removed(in_a_folder):
     assert done.returncode == 1
     assert "first-flight.yml" in done.stderr and done.stderr.count("\n") == 1
     assert list(in_a_folder.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "code"),
+    [
+        ("betaflight-loiter", "", "board_unavailable"),
+        ("uplink-failover", os.environ["PATH"], "paths_unavailable"),
+    ],
+)
+def test_a_flight_that_this_machine_cannot_fly_is_named_and_left_out(
+    name, path, code, capsys, monkeypatch, tmp_path
+):
+    build_firmware()
+    shipped = shipped_paths()[0].with_name(f"{name}.yml")
+    monkeypatch.setattr("up_simulator.verbs.catalogue.SHIPPED", tmp_path)
+    (tmp_path / shipped.name).write_bytes(shipped.read_bytes())
+    monkeypatch.setenv("PATH", path)
+    monkeypatch.setattr("os.geteuid", lambda: 1000)
+    assert main(["all", "--output", str(tmp_path)]) == 0
+    printed = capsys.readouterr()
+    assert "0 of 0" in printed.out and name in printed.err
+    monkeypatch.setenv("UP_LOG_FORMAT", "json")
+    assert main(["fly", name, "--output", str(tmp_path)]) == 1
+    assert [each["code"] for each in fields_of(capsys.readouterr().err)][-1] == code
 
 
 def test_all_flies_every_scenario_and_counts(capsys, monkeypatch, in_a_folder):

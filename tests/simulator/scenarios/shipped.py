@@ -2,21 +2,33 @@
 
 import dataclasses
 import io
+import json
+import os
+import subprocess
+import sys
 
 from tests.support.firmware import build_firmware
-from tests.support.tools import need_tool
+from tests.support.tools import need_root, need_tool
+from up_flightlog.read.flight_log import FlightLog
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.progress import ProgressLine
-from up_simulator.scenario.run import fly_scenario
+from up_simulator.scenario.run import SUMMARY, fly_scenario
 from up_simulator.verbs.catalogue import shipped_paths
 
 SCENARIOS = {path.stem: read_scenario(path) for path in shipped_paths()}
 REAL = [name for name, each in SCENARIOS.items() if each.is_real]
+WITH_BETAFLIGHT = [name for name in REAL if SCENARIOS[name].board == "betaflight"]
+"""They have fixed ports: tests/simulator/betaflight/ flies them."""
 WITH_DAEMON = [name for name, each in SCENARIOS.items() if each.has_raspilot and name not in REAL]
 ALONE = [name for name, each in SCENARIOS.items() if not each.has_raspilot]
-LONG_S = 24.0
+START_AND_END_S = 300.0
+FLIGHTS = 4
+"""How often a flight is flown that a busy machine slows."""
+LONG_S = 14.0
 """Longer ones, with their control run, use the host build of the same sources: the chip takes three
 times as long. Not those that limit the lateness of the loop, which only the chip has."""
+SECOND_OF_PAIR = "-on-raspberry"
+"""Its control run is that of the pair's first: there the switch leaves the flight to the board."""
 
 
 def is_for_host(scenario):
@@ -30,6 +42,9 @@ def fly(name):
     """Fly a shipped scenario and its control run; return what did not hold."""
     build_firmware()
     scenario, title = SCENARIOS[name], "the firmware on a simulated ATmega328P"
+    if name.endswith(SECOND_OF_PAIR):
+        assert scenario.control == SCENARIOS[name.replace(SECOND_OF_PAIR, "-on-arduino")].control
+        scenario = dataclasses.replace(scenario, control=None)
     if is_for_host(scenario):
         need_tool("g++")
         scenario = dataclasses.replace(scenario, board="host")
@@ -43,3 +58,33 @@ def fly(name):
         for verdict in result.verdicts
         if not verdict.is_held
     ]
+
+
+def was_too_slow(summary):
+    """Return whether a flight was not in real time; one that left no summary was not flown."""
+    return summary.is_file() and "not_real_time" in json.loads(summary.read_text())["notes"]
+
+
+def fly_real(name, folder, **environment):
+    """Fly a scenario with real programs as a user does; what they recorded is whole.
+
+    A flight that a busy machine slowed shows nothing: it is flown again.
+    """
+    if SCENARIOS[name].through == "two paths":
+        need_root()
+        need_tool("nft", "nftables")
+    command = [sys.executable, "-m", "up_simulator.cli", "fly", name]
+    for _ in range(FLIGHTS):
+        done = subprocess.run(
+            [*command, "--no-picture", "--output", str(folder)],
+            env=os.environ | environment,
+            capture_output=True,
+            text=True,
+            timeout=SCENARIOS[name].duration_s + START_AND_END_S,
+        )
+        if done.returncode == 0 or not was_too_slow(folder / name / SUMMARY):
+            break
+    assert done.returncode == 0, done.stdout + done.stderr
+    boxes = sorted((folder / name / "black-box").glob("*.mcap"))
+    recorded = [FlightLog.read([path]).topics for path in boxes]
+    assert recorded and all(topics["up.orientation.update"] > 20 for topics in recorded)

@@ -27,7 +27,7 @@ def test_it_says_what_it_shows_and_by_which_figures(name):
     assert scenario.title and scenario.about and scenario.tags
     assert len(scenario.expect) >= MIN_EXPECTATIONS
     assert any(any(each.isdigit() for each in limit_text(limit)) for limit in scenario.expect)
-    assert scenario.board in ("auto", "direct", "host") and not scenario.may_crash
+    assert scenario.board in ("auto", "direct", "host", "betaflight") and not scenario.may_crash
     assert (scenario.board == "host") == ("navigation" in scenario.tags)
 
 

@@ -22,6 +22,7 @@ sys.argv = ["program"]
 PROGRAMS = {
     "up.cli": "up.cli.parser",
     "up_ground": "up_ground.arguments",
+    "up_cluster.fleet": "up_cluster.fleet.tables",
     "up_proxy": "twisted",
     "up_runner": "twisted",
     "up_simulator": "up_simulator.verbs.catalogue",

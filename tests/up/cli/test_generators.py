@@ -19,6 +19,7 @@ from up.cli.cli_error import CliError
 from up.cli.names import Name
 
 LONGEST = "Abcdefghijklmnopqrstuvwx"
+STYLE = (("ruff", "check", "."), ("ruff", "format", "--check", "."))
 
 
 @pytest.fixture(scope="module")
@@ -29,13 +30,8 @@ def mypy_cache(tmp_path_factory):
 
 @pytest.fixture
 def passes(own_process, mypy_cache):
-    def passes(folder: Path) -> None:
-        for check in (
-            ("ruff", "check", "."),
-            ("ruff", "format", "--check", "."),
-            ("mypy", "--strict", "."),
-            ("pytest", "-q"),
-        ):
+    def passes(folder: Path, checks=(*STYLE, ("mypy", "--strict", "."), ("pytest", "-q"))) -> None:
+        for check in checks:
             done = own_process(
                 *check, cwd=folder, paths=str(folder), MYPY_CACHE_DIR=str(mypy_cache)
             )
@@ -77,7 +73,11 @@ def test_a_cog_passes_every_check(own_process, passes, tmp_path, name):
     root = tmp_path / f"{snake}_cog"
     done = own_process("up.cli", "create", "module", "-n", "Second", cwd=root)
     assert "up explore -w" in done.stdout
-    passes(root)
+    if name == LONGEST:
+        passes(root)
+    else:
+        # The length of a name changes only where lines break.
+        passes(root, STYLE)
     for wanted in ("setup.py", "README.md", "registrar.py", "registered_modules.yml", "config.py"):
         assert list(root.rglob(wanted)), wanted
 

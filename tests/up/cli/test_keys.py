@@ -1,5 +1,6 @@
 """``up keys``: devices are added, shown, listed and revoked; secrets only where they are wanted."""
 
+import json
 import stat
 
 import pytest
@@ -49,6 +50,9 @@ def test_a_revoked_key_is_listed_and_shown_no_more(keys):
     assert first.key_id in listed.out
     assert second.key_id in listed.out
     assert first.secret not in listed.out
+    rows = json.loads(keys("list", "--json").out)
+    assert [each["state"] for each in rows] == ["revoked", "valid"]
+    assert rows[1]["key_id"] == second.key_id and second.secret not in str(rows)
     assert pairing_of(keys("show", "phone")) == second
 
 

@@ -254,6 +254,8 @@ def test_explore_lists_and_writes(up, tmp_path):
         "sonar_cog.modules.depth_module.DepthModule",
         "sonar_cog.modules.sonar_module.SonarModule",
     ]
+    rows = json.loads(up("explore", "--json", cwd=cog).out)
+    assert [each["class_name"] for each in rows] == ["DepthModule", "SonarModule"]
     assert manifest.read_text() == before
     assert up("e", "-w", cwd=cog / "sonar_cog").status == 0
     assert "DepthModule" in manifest.read_text()

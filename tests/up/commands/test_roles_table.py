@@ -37,7 +37,10 @@ COGS = (
 REGISTRY = CommandRegistry((*BUILTIN_COMMANDS, *COGS))
 LADDER = ("observer", "operator", "pilot", "admin")
 WHO = {
-    "observer": ("arduino.profile.request", "up.ack", "up.mission.request", "up.nack"),
+    "observer": (
+        "arduino.profile.request", "up.ack", "up.mission.request", "up.nack",
+        "up.parameter.request",
+    ),
     "operator": (
         "android.speak", "black_box.mark", "up.flight_mode.set", "up.home.set",
         "up.mission.commit", "up.mission.item", "up.mission.part", "up.navigation.target",
@@ -45,6 +48,7 @@ WHO = {
     ),
     "pilot": (
         "arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.battery.calibrate", "up.disarm",
+        "up.parameter.set",
     ),
     "sensor": (
         "android.battery", "black_box.record", "up.airspeed.update", "up.altitude.change",
@@ -101,6 +105,9 @@ SAMPLES = {
     "up.arm": {},
     "up.disarm": {},
     "up.system.stop": {},
+    "up.parameter.request": {},
+    "up.parameter.set": {"file": "loiter.yml", "key": "radius_m", "value": "60"},
+    "up.parameter.values": {"file": "loiter.yml", "values": {"radius_m": 60}, "next_start": {}},
     "arduino.status": dict.fromkeys(
         (key for _, key, _ in wire_fields(ArduinoStatusCommand)), 1
     ),

@@ -117,6 +117,7 @@ def _computing(self, situation, dt_s):
         (_computing, "mode_overrun"),
         (lambda *_: None, "demand_invalid"),
         (lambda *_: AttitudeDemand(math.nan, 0.0), "demand_invalid"),
+        (lambda *_: AttitudeDemand("5", 0.0), "demand_invalid"),
         (lambda *_: PathDemand(Circle(Point(0.0, math.inf), 50.0)), "demand_invalid"),
     ],
 )

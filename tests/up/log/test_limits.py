@@ -84,4 +84,6 @@ def test_stop_says_what_was_held_back_and_leaves_no_timer(clock, said):
     limited.log(said, "y")
     limited.stop()
     assert said.lines == ["x", "y", "x (and 1 more in 10 s)"]
+    limited.log(said, "z")
+    assert said.lines[-1] == "z"
     assert clock.getDelayedCalls() == []

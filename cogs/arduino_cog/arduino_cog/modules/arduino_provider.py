@@ -21,7 +21,7 @@ from up.commands.board_status import (
     refusal_text,
     telemetry_of,
 )
-from up.commands.flight_state_command import FlightStateCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.rx_command import RXCommand
@@ -272,6 +272,8 @@ class ArduinoProvider(BaseBoard):
         forward_m_s2 = forward_m_s2_of(status)
         if forward_m_s2 is not None:
             self.publish(AccelerationCommand(forward_m_s2))
+        if status.battery_mv:
+            self.publish(FlightBatteryCommand(status.battery_mv / 1000))
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from crsf_cog.config import CRSF
@@ -17,7 +17,7 @@ from up.commands.rx_command import ALL_VALID, RXCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.mode import WITH_BOARD
 from up.protocols.general_message import GeneralMessage, decode
-from up.protocols.serial_line import SerialLine
+from up.protocols.serial_line import SerialLike, SerialLine
 from up.protocols.serial_port import open_serial
 from up.telemetry_frame import Frame
 
@@ -40,6 +40,7 @@ class CrsfReceiver(BaseStartedModule):
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
+        self.open_port: Callable[[str, int], int | SerialLike] = open_serial
         self._decoder = CrsfDecoder()
         self._counters = self._decoder.counters
         self._channels: list[int] = []
@@ -58,7 +59,7 @@ class CrsfReceiver(BaseStartedModule):
         self.link = self.up.open_link(LINK, Role.OPERATOR, self._on_answer)
         self._line = SerialLine(
             reactor,
-            lambda: open_serial(config.port, config.baud_rate),
+            lambda: self.open_port(config.port, config.baud_rate),
             on_bytes=self._on_bytes,
             on_opened=self._decoder.reset,
             on_lost=self._on_lost,

@@ -123,12 +123,12 @@ class MspBoard(BaseBoard):
         self._ticks.start(1 / self.config.rate_hz)
         return True
 
-    def on_stop(self) -> None:
+    async def on_stop(self) -> None:
         if self._ticks.running:
             self._ticks.stop()
         if self._is_forbidden:
             # Without this program the board's own checks decide.
-            self._line.write(encode(messages.SET_ARMING_DISABLED, b"\x00"))
+            await self._line.end(encode(messages.SET_ARMING_DISABLED, b"\x00"))
         self._line.stop()
 
     def send_sticks(self, payload: bytes) -> None:

@@ -2,9 +2,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Bell } from "../../../../ground/up_ground/web/static/js/sound.js";
 import {
+  acknowledge,
   alarmOf,
+  allAlarms,
+  dropAcknowledged,
+  soundingAlarms,
   worstLevel,
 } from "../../../../ground/up_ground/web/static/js/state/alarm_level.js";
+import { Fleet } from "../../../../ground/up_ground/web/static/js/state/fleet.js";
 
 const OPEN = { isOpen: true };
 const FAILSAFE = { kind: "failsafe", level: "alarm", text: "Failsafe" };
@@ -55,4 +60,28 @@ test("the bell rings when the aircraft falls silent", () => {
   assert.equal(bell.ring(alarmOf(store(), OPEN), [], 0), null);
   assert.equal(bell.ring(alarmOf(store([], "silent"), OPEN), [], 1), "alarm");
   assert.equal(bell.ring(alarmOf(store([], "silent"), OPEN), [], 2), null);
+});
+
+test("an acknowledged alarm is silent, of every aircraft, until it is over", () => {
+  const fleet = new Fleet(() => 0);
+  const row = (name, ...alarms) => ({ name, alarms });
+  fleet.take({ aircraft: [row("one", FAILSAFE), row("two", BATTERY)] }, 0);
+  const both = { ...store([FAILSAFE]), aircraft: "one", fleet };
+  const levels = () => {
+    const { alarm, all } = soundingAlarms(both, OPEN);
+    return [alarm.level, ...all.map((each) => each.aircraft)];
+  };
+  assert.deepEqual(levels(), ["alarm", "one", "two"]);
+  // The same kind of alarm of another aircraft is another alarm.
+  acknowledge({ ...FAILSAFE, aircraft: "two" });
+  assert.deepEqual(levels(), ["alarm", "one", "two"]);
+  acknowledge({ ...FAILSAFE, aircraft: "one" });
+  dropAcknowledged(allAlarms(both));
+  assert.deepEqual(levels(), ["warning", "two"]);
+  acknowledge({ ...BATTERY, aircraft: "two" });
+  assert.deepEqual(levels(), ["none"]);
+  assert.equal(soundingAlarms(both, { isOpen: false }).alarm.text, "no server");
+  assert.equal(soundingAlarms({ ...both, aircraftState: "silent", alarms: [] }, OPEN).alarm.text, "silent");
+  dropAcknowledged([]);
+  assert.deepEqual(levels(), ["alarm", "one", "two"]);
 });

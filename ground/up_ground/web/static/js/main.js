@@ -20,6 +20,7 @@ const PARTS = [
   ["board", "./instruments/board.js"],
   ["readings", "./instruments/readings.js"],
   ["alarms", "./panels/alarms.js"],
+  ["panel-fleet", "./panels/fleet.js"],
   ["panel-map", "./map/map.js"],
   ["panel-mission", "./mission/mission_panel.js"],
   ["panel-charts", "./charts/charts.js"],
@@ -33,9 +34,25 @@ const PARTS = [
   ["panel-telemetry", "./panels/telemetry_tree.js"],
 ];
 
+/** Pauses before a file that did not arrive is requested again, ms. */
+const RETRY_MS = [250, 1000, 4000];
+
+/** Import a module; a link that breaks while the page loads must not leave it without a part. */
+async function importModule(path) {
+  for (const pause_ms of RETRY_MS) {
+    try {
+      return await import(path);
+    } catch (error) {
+      console.warn(error);
+      await new Promise((done) => setTimeout(done, pause_ms));
+    }
+  }
+  return import(path);
+}
+
 async function mountPart(registry, [id, path], store, connection) {
   try {
-    const { mount } = await import(path);
+    const { mount } = await importModule(path);
     const element = document.getElementById(id);
     registry.add(id, mount(element, store, connection), element);
   } catch (error) {

@@ -3,6 +3,7 @@ import { storageOf } from "./link/storage.js";
 import { alarmOf } from "./state/alarm_level.js";
 import { actingMode } from "./state/flight_mode.js";
 import { UNKNOWN } from "./state/format.js";
+import { STATE_WORDS } from "./state/newest_frame.js";
 
 const THEMES = ["dark", "daylight"];
 
@@ -52,6 +53,9 @@ export function mountShell(store, connection) {
   let reason = "";
   connection.on("closed", (event) => {
     reason = event.reason;
+  });
+  connection.on("open", ({ welcome }) => {
+    at("docs-link").hidden = welcome.has_docs !== true;
   });
   select.addEventListener("change", () => store.watch(select.value));
 
@@ -140,5 +144,5 @@ function linkWord(store, connection) {
   if (store.aircraftState === "live" && store.replay !== null) {
     return store.replay.is_playing === false ? "paused" : "replay";
   }
-  return { live: "live", silent: "silent", none: "waiting" }[store.aircraftState];
+  return STATE_WORDS[store.aircraftState];
 }

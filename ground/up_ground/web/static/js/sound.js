@@ -1,6 +1,6 @@
 import { TIMERS } from "./link/clock.js";
 import { storageOf } from "./link/storage.js";
-import { alarmOf } from "./state/alarm_level.js";
+import { keyOf, soundingAlarms } from "./state/alarm_level.js";
 
 const TONES = {
   warning: { pitches_hz: [660], gap_s: 0.3, vibrate_ms: [200] },
@@ -15,9 +15,9 @@ export class Bell {
   #known = new Set();
   #rang_s = -Infinity;
 
-  /** alarm: the worst, as shown in the bar. Returns the sound to play. */
+  /** alarm: the worst, or what the page itself detects; all: of the aircraft. Returns the sound to play. */
   ring(alarm, all, now_s) {
-    const now = new Set(all.map((each) => `${each.kind} ${each.level}`));
+    const now = new Set(all.map(keyOf));
     if (all.length === 0 || alarm.level === "alarm") {
       now.add(`${alarm.text} ${alarm.level}`);
     }
@@ -52,7 +52,8 @@ export function mountSound(button, store, connection) {
     button.setAttribute("aria-pressed", String(isOn));
   };
   const look = () => {
-    const level = bell.ring(alarmOf(store, connection), store.alarms, store.now_s);
+    const { alarm, all } = soundingAlarms(store, connection);
+    const level = bell.ring(alarm, all, store.now_s);
     if (isOn && level !== null) {
       play(context, TONES[level]);
     }
@@ -69,6 +70,7 @@ export function mountSound(button, store, connection) {
   document.addEventListener("pointerdown", unlock);
   document.addEventListener("keydown", unlock);
   connection.on("alarms", look);
+  connection.on("fleet", look);
   TIMERS.each(look, POLL_S);
   show();
 }

@@ -17,6 +17,7 @@ import org.robolectric.annotation.Config;
 @Config(sdk = 29)
 public final class MeetingTest extends AppBench {
     private static final double LATITUDE = 49.74747;
+    private static final int STEP_MS = 20;
 
     private static String property(String name) {
         return System.getProperty("meeting." + name);
@@ -51,7 +52,7 @@ public final class MeetingTest extends AppBench {
         handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
         handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
         handset.locate(LATITUDE, 13.37759, 345);
-        Wait.pass(20);
+        Wait.pass(STEP_MS);
     }
 
     private void sendPeriod() throws Exception {
@@ -87,10 +88,11 @@ public final class MeetingTest extends AppBench {
                 && handset.ground().snapshot().status.control == ControlStatus.OURS);
 
         handset.choose(Screen.COMMANDS);
-        // The app waits 3 s for an answer: of the test's time, which outruns a busy machine.
-        for (int attempt = 0; attempt < 5 && !isCarriedOut(); attempt++) {
+        // The app waits 3 s for an answer: of the test's time, which must not outrun a busy machine.
+        for (int attempt = 0; attempt < 20 && !isCarriedOut(); attempt++) {
             sendPeriod();
             for (int step = 0; step < 200 && !isCarriedOut(); step++) {
+                Thread.sleep(STEP_MS);
                 step();
             }
         }

@@ -26,7 +26,7 @@ import org.robolectric.annotation.GraphicsMode;
 /**
  * Draws the screens by the system's own graphics library, with sensors, an aeroplane and real
  * sockets behind them. The property {@code pictures} is the folder; with {@code pictures.all} every
- * screen is drawn in every shape, for a review of all of them.
+ * screen is drawn in every shape whose name contains its value, for a review of all of them.
  */
 @RunWith(RobolectricTestRunner.class)
 @Config(sdk = 29, qualifiers = PicturesTest.UPRIGHT)
@@ -107,6 +107,8 @@ public final class PicturesTest {
             all("wide-day", LYING, "daylight");
             all("phone-day", UPRIGHT, "daylight");
             all("tablet-day", TABLET, "daylight");
+            all("phone-german", "de-" + UPRIGHT, "daylight");
+            all("tablet-german", "de-" + TABLET, "daylight");
         }
     }
 
@@ -122,6 +124,9 @@ public final class PicturesTest {
     }
 
     private void all(String name, String qualifiers, String theme) throws Exception {
+        if (!name.contains(System.getProperty("pictures.all"))) {
+            return;
+        }
         turn(qualifiers, theme);
         boolean isWide = handset.application.getResources().getBoolean(R.bool.two_panes);
         for (Screen screen : Screen.values()) {

@@ -9,7 +9,10 @@ import android.app.Fragment;
 import android.content.ClipboardManager;
 import android.content.Context;
 import android.preference.Preference;
+import android.text.Layout;
 import android.view.View;
+import android.view.ViewGroup;
+import android.widget.TextView;
 import org.junit.Test;
 import org.robolectric.annotation.Config;
 import org.robolectric.shadows.ShadowToast;
@@ -75,6 +78,49 @@ public final class WindowTest extends AppBench {
                 handset.window.get().getActionBar().getTabCount());
         handset.choose(Screen.AIRBORNE);
         assertEquals(View.GONE, find(R.id.pane_second).getVisibility());
+    }
+
+    @Test
+    @Config(sdk = 29, qualifiers = "de-sw360dp-w360dp-h2400dp-port-xhdpi")
+    public void germanTextsFitThePhone() {
+        handset.open();
+        assertEquals("Senden starten", text(R.id.run_switch));
+        for (Screen screen : Screen.values()) {
+            handset.choose(screen);
+            mustFit();
+        }
+        handset.choose(Screen.COMMANDS);
+        openCommand("up.arm");
+        mustFit();
+        find(R.id.commands_back).performClick();
+        openCommand("arduino.pids.tunings");
+        mustFit();
+    }
+
+    private void mustFit() {
+        Drawing.of(handset.window.get());
+        mustFit(handset.window.get().getWindow().getDecorView());
+    }
+
+    /** Fails where a text is cut off, or broken within a word. */
+    private static void mustFit(View view) {
+        if (view instanceof ViewGroup) {
+            for (int at = 0; at < ((ViewGroup) view).getChildCount(); at++) {
+                mustFit(((ViewGroup) view).getChildAt(at));
+            }
+        }
+        TextView shown = view instanceof TextView && view.isShown() ? (TextView) view : null;
+        Layout lines = shown == null ? null : shown.getLayout();
+        for (int line = 0; lines != null && line < lines.getLineCount(); line++) {
+            CharSequence text = lines.getText();
+            int end = lines.getLineEnd(line);
+            int widthPx = shown.getWidth() - shown.getTotalPaddingLeft() - shown.getTotalPaddingRight();
+            assertTrue(text + " is cut off", lines.getEllipsisCount(line) == 0
+                    && lines.getLineWidth(line) <= widthPx + 1);
+            assertFalse(text + " is broken", end > 0 && end < text.length()
+                    && Character.isLetter(text.charAt(end - 1))
+                    && Character.isLetter(text.charAt(end)));
+        }
     }
 
     @Test

@@ -188,7 +188,7 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
             TlsIdentity found = store.certificates();
             return found == null ? text(R.string.certificates_none) : found.toString();
         } catch (IllegalArgumentException unreadable) {
-            return unreadable.getMessage();
+            return text(R.string.certificates_broken);
         }
     }
 
@@ -197,7 +197,7 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
             return text(PairingStore.isInKeystore() ? R.string.key_in_keystore
                     : R.string.key_in_storage, store.get(aircraft));
         } catch (IllegalArgumentException unreadable) {
-            return unreadable.getMessage();
+            return text(R.string.key_broken);
         }
     }
 

@@ -79,7 +79,7 @@ final class MountingPanel implements SensorListener<Rotation> {
         try {
             mounting = Mounting.level(newest, Side.values()[nose.getSelectedItemPosition()]);
         } catch (IllegalArgumentException refusal) {
-            said.setText(refusal.getMessage());
+            said.setText(R.string.mounting_steep);
             return;
         }
         settings.setMounting(mounting);

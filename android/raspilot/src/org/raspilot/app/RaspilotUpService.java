@@ -49,7 +49,7 @@ public final class RaspilotUpService extends BaseUpService {
 
     @Override
     protected String noticeText(AirborneStatus status) {
-        return status == null ? getString(R.string.link_begins) : status.linkText;
+        return RunPanel.linkText(this, status);
     }
 
     @Override

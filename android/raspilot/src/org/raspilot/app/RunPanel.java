@@ -64,9 +64,17 @@ final class RunPanel {
         if (isPanic) {
             TextViews.show(panic, context.getString(R.string.panic, status.panicDelayMs));
         }
-        TextViews.show(link, status == null ? context.getString(R.string.link_begins)
-                : status.linkText);
+        TextViews.show(link, linkText(context, status));
         paint(R.string.stop_big, R.attr.upAlarm, R.attr.upOnAlarm);
+    }
+
+    /** Returns the state of the link; null: nothing is known of it yet. */
+    static String linkText(Context context, AirborneStatus status) {
+        if (status == null) {
+            return context.getString(R.string.link_begins);
+        }
+        return status.isConnected ? context.getString(R.string.link_connected, status.endpoint.host,
+                status.endpoint.generalPort) : status.linkText;
     }
 
     private String where(AirborneSettings settings) {

@@ -8,6 +8,8 @@ import { TrackLine } from "./track_line.js";
 const INITIAL_ZOOM = 16;
 const MAX_ZOOM = 21;
 const MAX_TILE_ZOOM = 19;
+/** Room for the buttons above, the text below and the labels beside aircraft, pixels. */
+const MARGINS = { paddingTopLeft: [30, 76], paddingBottomRight: [60, 50] };
 
 /** The map by Leaflet. It follows the aircraft, or it stays where the user put it. */
 export class LeafletMap {
@@ -111,7 +113,7 @@ export class LeafletMap {
     places.forEach((each) => bounds.extend(latLng(each)));
     if (bounds.isValid()) {
       this.free();
-      this.#map.fitBounds(bounds, { padding: [30, 30], maxZoom: 18 });
+      this.#map.fitBounds(bounds, { ...MARGINS, maxZoom: 18 });
     }
   }
 

@@ -4,6 +4,7 @@ import { editorOf } from "../mission/editor.js";
 import { MISSION, placesOf } from "../mission/plan.js";
 import { PlanLayer } from "../mission/plan_layer.js";
 import { usedState } from "../mission/progress.js";
+import { FleetLayer } from "./fleet_layer.js";
 import { MapActions } from "./map_actions.js";
 import { limitOf } from "./overlay.js";
 import { homeText, pictureOf } from "./picture.js";
@@ -22,7 +23,7 @@ export function mount(place, store, connection) {
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
   const farther = button("−", "Farther", () => map?.zoom(-1));
-  const whole = button("All", "All of the track, the mission and the fence", () => map?.showAll([...placesOf(editor.drawn), ...limitOf(pictureOf(store))]));
+  const whole = button("All", "All aircraft, the track, the mission and the fence", () => showAll());
   const tools = html("div.map-tools", {}, follow, whole, closer, farther);
   const words = html("p.map-words", { id: "map-home" });
   const wind = new Wind();
@@ -34,6 +35,7 @@ export function mount(place, store, connection) {
   place.append(canvas, tools, html("div.map-foot", {}, words), wind.element, notice, actions.element, bar.element);
   let map = null;
   let plans = null;
+  let fleet = null;
   editor.middle = () => map?.middle ?? null;
   editor.subscribe(show);
   place.addEventListener("keydown", onKey);
@@ -54,6 +56,11 @@ export function mount(place, store, connection) {
       map?.free?.();
     }
     showFollow();
+  }
+
+  function showAll() {
+    const others = fleet?.places ?? [];
+    map?.showAll([...placesOf(editor.drawn), ...limitOf(pictureOf(store)), ...others]);
   }
 
   function showFollow() {
@@ -97,6 +104,7 @@ export function mount(place, store, connection) {
     }
     const picture = { ...pictureOf(store), chosen: actions.place, plans: editor.drawn };
     map?.show(picture);
+    fleet?.show();
     if (map?.middle) {
       const isUsed = usedState(editor, store, MISSION) === "same";
       plans?.show(picture.home, isUsed ? store.number("mission.item") : null);
@@ -115,6 +123,7 @@ export function mount(place, store, connection) {
       const onTiles = (areThere) => notify(areThere ? "" : NO_TILES);
       map = new LeafletMap(L, canvas, { tiles, onFree: showFollow, onTiles, onChoose: choose });
       plans = new PlanLayer(L, map.leaflet, editor);
+      fleet = new FleetLayer(L, map.leaflet, store);
     } catch (error) {
       console.warn(error);
       map = new PlainMap(canvas, choose);

@@ -24,6 +24,7 @@ export class MapActions {
   #height;
   #home;
   #isAboveHome = true;
+  #aircraft = null;
 
   /** @type {?{latitude: number, longitude: number}} the chosen place; null: none */
   place = null;
@@ -70,6 +71,7 @@ export class MapActions {
       this.#offerHeight();
     }
     this.place = place;
+    this.#aircraft = this.#store.aircraft;
     setText(this.#note, "");
     this.#onChange();
   }
@@ -92,6 +94,10 @@ export class MapActions {
 
   /** picture: of the map. */
   update({ aircraft, home }) {
+    if (this.#store.aircraft !== this.#aircraft) {
+      // Its height counts from the home of the aircraft selected before.
+      this.place = null;
+    }
     this.element.hidden = this.place === null;
     if (this.place === null) {
       return;
@@ -104,6 +110,7 @@ export class MapActions {
 
   async #fly(value) {
     const { latitude, longitude } = this.place;
+    const { aircraft } = this.#store;
     const where = this.#isAboveHome ? { height: value } : { altitude: value };
     const reference = this.#isAboveHome ? "above home" : "above sea level";
     const question = {
@@ -112,10 +119,10 @@ export class MapActions {
       yes: "Fly here",
       no: "Leave it",
     };
-    const answer = await this.#sender.send(TARGET, { latitude, longitude, ...where }, { note: this.#note, question });
+    const answer = await this.#sender.send(TARGET, { latitude, longitude, ...where }, { note: this.#note, question, aircraft });
     // A target moves an aircraft that is in GUIDED already.
     if (answer?.outcome === "ack" && this.#store.text("flight_control.selected") !== GUIDED) {
-      await this.#sender.send(MODE, { mode: GUIDED }, { note: this.#note });
+      await this.#sender.send(MODE, { mode: GUIDED }, { note: this.#note, aircraft });
     }
   }
 

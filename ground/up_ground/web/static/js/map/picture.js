@@ -14,25 +14,32 @@ import { clockText } from "../panels/messages.js";
  *   plans: {mission: object[], fence: object[]}}} Picture
  */
 
-/** The last position known, and how fresh it is. */
-export function pictureOf(store) {
-  const estimate = placeAt(store, "navigation");
-  const fix = placeAt(store, "location");
+/** Where an aircraft is by its newest frame: its estimate, otherwise the fix; how fresh that is, and its heading. */
+export function positionOf(frame) {
+  const estimate = placeAt(frame, "navigation");
+  const fix = placeAt(frame, "location");
   const aircraft = estimate ?? fix;
   const reading = estimate === null ? "location" : "navigation";
+  // The time of a position from the track alone is unknown.
+  const age_s = frame.age_s(reading) ?? frame.age_s(null);
+  const freshness = aircraft !== null && frame.freshness(reading) === "live" ? "live" : "stale";
+  const age = age_s === null ? "some time" : ageText(age_s);
+  return { aircraft, estimate, fix, freshness, age, heading_deg: aircraft === null ? null : headingOf(frame) };
+}
+
+/** The last position known, and how fresh it is. */
+export function pictureOf(store) {
+  const { aircraft, estimate, fix, freshness, age, heading_deg } = positionOf(store);
   const last = store.track.points.at(-1);
   const seen = aircraft ?? (last === undefined ? null : placeOf(last[0], last[1]));
   const known = store.status?.home;
   const sd_m = estimate === null ? null : store.number("navigation.sd.position");
-  const isSeen = aircraft !== null;
-  // The time of a position from the track alone is unknown.
-  const age_s = store.age_s(reading) ?? store.age_s(null);
   return {
     name: store.aircraft,
     aircraft: seen,
-    heading_deg: isSeen ? headingOf(store) : null,
-    freshness: seen === null ? "none" : isSeen && store.freshness(reading) === "live" ? "live" : "stale",
-    age: age_s === null ? "some time" : ageText(age_s),
+    heading_deg,
+    freshness: seen === null ? "none" : freshness,
+    age,
     uncertainty_m: sd_m === null ? null : 2 * sd_m,
     fix: estimate === null ? null : fix,
     target: placeAt(store, "navigation.target"),

@@ -1,15 +1,16 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { offlineReason } from "./disabled_reason.js";
 import { modeReason } from "../state/flight_mode.js";
-import { acknowledge, dropAcknowledged, isAcknowledged } from "../state/alarm_level.js";
+import { acknowledge, allAlarms, dropAcknowledged, isAcknowledged, keyOf } from "../state/alarm_level.js";
+import { OtherAlarm } from "./other_alarm.js";
 
-/** The active alarms: a bar each, until it is over. Acknowledging silences it. */
+/** The active alarms: a bar each, until it is over; one bar for other aircraft. Acknowledging silences it. */
 export function mount(place, store, connection) {
   const bars = new Map();
   const away = html("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, html("strong"));
   const fallback = html("div.alarm", { id: "fallback", role: "alert", "data-level": "alarm" }, html("strong"));
   const failsafe = html("div.alarm", { id: "failsafe", role: "alert", "data-level": "alarm" }, html("strong"));
-  let aircraft = store.aircraft;
+  const other = new OtherAlarm(store);
 
   function show(banner, code, text) {
     if (code === null) {
@@ -56,10 +57,9 @@ export function mount(place, store, connection) {
 
   return {
     update() {
-      const standing = store.alarms.filter((each) => typeof each?.text === "string");
-      // An acknowledgement for one aircraft does not hold for another.
-      dropAcknowledged(store.aircraft === aircraft ? standing : []);
-      aircraft = store.aircraft;
+      const all = allAlarms(store).filter((each) => typeof each.text === "string");
+      const standing = all.filter((each) => each.aircraft === store.aircraft);
+      dropAcknowledged(all);
       const keys = new Set(standing.map(keyOf));
       for (const [key, { bar }] of bars) {
         if (!keys.has(key)) {
@@ -81,11 +81,8 @@ export function mount(place, store, connection) {
       }
       showAway(standing);
       showMode();
+      other.show(place, all.filter((each) => each.aircraft !== store.aircraft));
       place.hidden = place.childElementCount === 0;
     },
   };
-}
-
-function keyOf(alarm) {
-  return `${alarm.kind} ${alarm.level}`;
 }

@@ -51,6 +51,7 @@ export class Arming {
       disabledReason: () => this.#reason(name),
       fire: () => this.#sender.send(name, {}, { note: this.#note }),
       now_s: () => this.#store.now_s,
+      aircraft: () => this.#store.aircraft,
       note: this.#note,
     });
   }

@@ -10,7 +10,7 @@ const OLD_S = 15;
 /** Then it is removed: the request is listed among the events. */
 const GONE_S = 120;
 const CANCELLED = { code: "cancelled", text: "you cancelled" };
-const OTHER_AIRCRAFT = { code: "other_aircraft", text: "another aircraft was selected" };
+export const OTHER_AIRCRAFT = { code: "other_aircraft", text: "another aircraft was selected" };
 const WAITING = "sent, waiting for the answer";
 
 /**
@@ -119,9 +119,8 @@ export class CommandSender {
     return disabledReason(this.#store, this.#connection, name, data);
   }
 
-  /** note: shows the outcome; question: for dialog.js; isForced: an unknown name. Returns null if not sent. */
-  async send(name, data, { note, question = null, isForced = false }) {
-    const { aircraft } = this.#store;
+  /** note: shows the outcome; question: for dialog.js; isForced: an unknown name; aircraft: for which it was chosen. Returns null if not sent. */
+  async send(name, data, { note, question = null, isForced = false, aircraft = this.#store.aircraft }) {
     const command = commandText(this.#store.catalogue.get(name)?.title ?? name, data);
     if (question !== null && !(await confirm(question))) {
       this.#notes.show(note, `not sent: ${CANCELLED.text}`, "plain", CANCELLED.code);

@@ -1,5 +1,5 @@
 import { html, setAttribute, svg } from "../dom.js";
-import { showNote } from "./command_sender.js";
+import { OTHER_AIRCRAFT, showNote } from "./command_sender.js";
 import { HeldPress, HOLD_S } from "./held_press.js";
 
 const ROUND = 2 * Math.PI * 15;
@@ -13,7 +13,8 @@ const UNFOCUSED = { code: "unfocused", text: "the focus moved elsewhere" };
  * `disabledReason()` returns why it may not be pressed now, {code, text} or null; it is called
  * throughout the press. A
  * disabled button ignores presses too: browsers deliver pointer events to it all the same. `fire()`
- * is called once when the press has lasted long enough. `note` shows why a press did not.
+ * is called once when the press has lasted long enough, for the aircraft of its beginning:
+ * `aircraft()` returns the selected one. `note` shows why a press did not.
  */
 export class HeldButton {
   #press = new HeldPress();
@@ -23,9 +24,12 @@ export class HeldButton {
   #ring;
   #note;
   #isLooking = false;
+  #selected;
+  #aircraft = null;
 
-  constructor({ id, text, disabledReason, fire, now_s, note }) {
+  constructor({ id, text, disabledReason, fire, now_s, note, aircraft }) {
     this.#note = note;
+    this.#selected = aircraft;
     this.#disabledReason = disabledReason;
     this.#fire = fire;
     this.#clock_s = now_s;
@@ -103,6 +107,7 @@ export class HeldButton {
   }
 
   #begin(by, now_s) {
+    this.#aircraft = this.#press.state === "idle" ? this.#selected() : this.#aircraft;
     this.#press.press(by, now_s, this.#reason());
     const isPressed = this.#press.state === "pressed";
     if (isPressed) {
@@ -135,6 +140,9 @@ export class HeldButton {
   }
 
   #reason() {
+    if (this.#selected() !== this.#aircraft) {
+      return OTHER_AIRCRAFT;
+    }
     const reason = this.#disabledReason();
     if (reason !== null) {
       return reason;

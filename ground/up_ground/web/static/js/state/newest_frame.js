@@ -121,6 +121,9 @@ export class NewestFrame {
   }
 }
 
+/** What the page calls an `aircraftState`. */
+export const STATE_WORDS = { live: "live", silent: "silent", none: "waiting" };
+
 /**
  * path: of a value in the telemetry. Returns the reading whose age is the value's; null: the
  * frame's own age.

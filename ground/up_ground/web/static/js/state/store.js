@@ -1,6 +1,7 @@
 import { now_s, TIMERS } from "../link/clock.js";
 import { Catalogue } from "./catalogue.js";
 import { EventList } from "./event_list.js";
+import { Fleet } from "./fleet.js";
 import { Motion } from "./motion.js";
 import { NewestFrame } from "./newest_frame.js";
 import { READINGS } from "./schema.js";
@@ -10,13 +11,14 @@ import * as validate from "./validate.js";
 const REPAINT_S = 0.2;
 const POLL_S = 0.04;
 const JUMP_S = 1.5;
+const MAX_AIRCRAFT = 64;
 
 /**
  * The page's data on the watched aircraft, and its age.
  *
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
  * not validated), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
- * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]),
+ * (by name), `fleet` (summaries of all), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]),
  * `gains`, `profile`, `replay`, `track` (points, version, startAltitude_m),
  * `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
  */
@@ -45,6 +47,7 @@ export class Store extends NewestFrame {
     super(parts.now_s ?? now_s);
     this.#connection = connection;
     this.#timers = parts.timers ?? TIMERS;
+    this.fleet = new Fleet(parts.now_s ?? now_s);
     this.#requestFrame = parts.requestFrame ?? ((call) => requestAnimationFrame(call));
     connection.shownBeacon = () => this.shownBeacon;
     connection.on("open", ({ welcome }) => this.#opened(welcome));
@@ -120,6 +123,8 @@ export class Store extends NewestFrame {
   take(message) {
     if (message.type === "status") {
       this.statuses.set(message.aircraft, message);
+    } else if (message.type === "fleet") {
+      this.fleet.take(message, this.#connection.way_s);
     } else if (message.type === "replay") {
       this.#takeReplay(message);
     } else if (message.type === "catalogue") {
@@ -136,7 +141,7 @@ export class Store extends NewestFrame {
     const known = {
       frame: () => this.updateFrame(message, this.#connection.way_s) && this.#follow(),
       event: () => this.#events.take(message, this.flight_s),
-      alarms: () => (this.alarms = alarmsOf(message.active)),
+      alarms: () => (this.alarms = validate.objects(message.active)),
       gains: () => (this.gains = message),
       profile: () => (this.profile = message.profile ?? null),
       track: () => this.#takeTrack(message),
@@ -189,11 +194,13 @@ export class Store extends NewestFrame {
 
   #closed() {
     this.release();
+    this.fleet.end();
     this.#change();
   }
 
   #opened(welcome) {
-    this.names = validate.texts(welcome.aircraft) ?? [];
+    this.names = validate.texts(welcome.aircraft, MAX_AIRCRAFT) ?? [];
+    this.fleet.keep(this.names);
     this.replay = null;
     const kept = this.names.includes(this.aircraft) ? this.aircraft : this.names[0];
     if (kept !== undefined) {
@@ -205,7 +212,8 @@ export class Store extends NewestFrame {
   #clear() {
     this.clearFrame();
     this.shownBeacon = null;
-    this.alarms = [];
+    // Until the server sends them again.
+    this.alarms = this.fleet.alarms(this.aircraft);
     this.gains = this.profile = null;
     this.motion = new Motion();
   }
@@ -225,9 +233,4 @@ export class Store extends NewestFrame {
     }
     this.shownBeacon = this.beacon;
   }
-}
-
-function alarmsOf(active) {
-  const all = Array.isArray(active) ? active : [];
-  return all.filter((each) => each !== null && typeof each === "object");
 }

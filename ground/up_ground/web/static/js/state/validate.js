@@ -18,14 +18,20 @@ export function text(found) {
 }
 
 /** The texts of a list, bounded; null: no list. */
-export function texts(found) {
+export function texts(found, limit = MAX_TEXTS) {
   if (!Array.isArray(found)) {
     return null;
   }
   return found
-    .slice(0, MAX_TEXTS)
+    .slice(0, limit)
     .map(text)
     .filter((each) => each !== null);
+}
+
+/** The objects of a list; none: no list. */
+export function objects(found) {
+  const all = Array.isArray(found) ? found : [];
+  return all.filter((each) => each !== null && typeof each === "object");
 }
 
 /** The value at a path with dots among own properties; undefined: missing. */

@@ -30,6 +30,8 @@ public final class CommandTexts {
         TITLES.put("up.mission.part", "Part of a plan");
         TITLES.put("up.mission.request", "Read the plan");
         TITLES.put("up.navigation.target", "Target");
+        TITLES.put("up.parameter.request", "Request parameters");
+        TITLES.put("up.parameter.set", "Set parameter");
         TITLES.put("up.telemetry.frequency", "Telemetry period {} ms");
         // schema end
     }

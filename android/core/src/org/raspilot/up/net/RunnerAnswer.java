@@ -30,10 +30,11 @@ public final class RunnerAnswer {
     /**
      * Parses a line of an answer.
      *
-     * @param host the runner's host, where the instance listens
+     * @param runnerHost the runner's host, where the instance listens unless the answer names
+     *     another one
      * @throws RefusedException with a sentence when no instance runs or the line is not an answer
      */
-    static RunnerAnswer read(String line, String host) throws RefusedException {
+    static RunnerAnswer read(String line, String runnerHost) throws RefusedException {
         final Map<?, ?> answer = parse(line);
         final Object isRunning = answer.get("running");
         if (!(isRunning instanceof Boolean)) {
@@ -53,6 +54,8 @@ public final class RunnerAnswer {
             throw new RefusedException("no_ports",
                     "the runner's answer names no ports of 1 to 65535");
         }
+        final String named = text(answer, "host");
+        final String host = named == null ? runnerHost : named;
         return new RunnerAnswer(answer, new Endpoint(host, general, orientation),
                 object(answer, "proxy"));
     }

@@ -26,6 +26,13 @@ public final class RunnerAnswerTest {
     }
 
     @Test
+    public void aPoolNamesTheHostOfTheInstance() throws Exception {
+        final RunnerAnswer answer = RunnerAnswer.read("{\"running\": true, \"host\": \"10.0.0.2\","
+                + " \"ports\": {\"general\": 50001, \"orientation\": 50000}}", "10.0.0.1");
+        assertEquals(new Endpoint("10.0.0.2", 50001, 50000), answer.endpoint);
+    }
+
+    @Test
     public void anInstanceThatRunsOtherwiseThanAskedIsAPlaceWithAnError() throws Exception {
         final RunnerAnswer answer = RunnerAnswer.read("{\"running\": true, \"spawned\": false,"
                 + " \"error\": \"another configuration\", \"proxy\": null,"

@@ -3,7 +3,6 @@ package org.raspilot.app.commands;
 import android.content.Context;
 import android.content.res.Resources;
 import android.text.TextUtils;
-import android.view.LayoutInflater;
 import android.view.View;
 import android.widget.TextView;
 import java.util.Collections;
@@ -19,13 +18,11 @@ import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.Freshness;
 
 /** Arm and disarm, each by a press that is held: nothing happens by a slip of the hand. */
-final class ArmPage implements Page, HoldButton.HoldListener {
+final class ArmPage extends Page implements HoldButton.HoldListener {
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
 
     private final CommandForm arm;
     private final CommandForm disarm;
-    private final CommandsScreen desk;
-    private final View element;
     private final HoldButton armButton;
     private final HoldButton disarmButton;
     private final TextView state;
@@ -36,29 +33,23 @@ final class ArmPage implements Page, HoldButton.HoldListener {
 
     /** Creates the page; a form that the catalogue lacks is null. */
     ArmPage(CommandForm arm, CommandForm disarm, CommandsScreen desk) {
+        super(desk, R.layout.page_arm);
         this.arm = arm;
         this.disarm = disarm;
-        this.desk = desk;
-        element = LayoutInflater.from(desk.context()).inflate(R.layout.page_arm, null);
         armButton = (HoldButton) element.findViewById(R.id.arm_button);
         disarmButton = (HoldButton) element.findViewById(R.id.disarm_button);
-        state = (TextView) element.findViewById(R.id.arm_state);
-        vetoes = (TextView) element.findViewById(R.id.arm_vetoes);
-        armWhy = (TextView) element.findViewById(R.id.arm_why);
-        disarmWhy = (TextView) element.findViewById(R.id.disarm_why);
-        note = (TextView) element.findViewById(R.id.arm_note);
+        state = text(R.id.arm_state);
+        vetoes = text(R.id.arm_vetoes);
+        armWhy = text(R.id.arm_why);
+        disarmWhy = text(R.id.disarm_why);
+        note = text(R.id.arm_note);
         armButton.setHoldListener(this);
         disarmButton.setHoldListener(this);
         update();
     }
 
     @Override
-    public View element() {
-        return element;
-    }
-
-    @Override
-    public void update() {
+    void update() {
         Resources words = desk.context().getResources();
         GroundSnapshot picture = desk.picture();
         boolean isLive = picture.telemetry.freshness("armed", picture.nowMs) == Freshness.LIVE;

@@ -9,7 +9,7 @@ import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.FlightModes;
 import org.raspilot.up.ground.Freshness;
 
-/** The English texts of the Commands: groups, objections, and requests. */
+/** The texts of the Commands: groups, objections, and requests. */
 public final class CommandTexts {
     private CommandTexts() {
     }

@@ -208,7 +208,7 @@ final class CommandsScreen
         pagePlace.removeAllViews();
         page = form == null ? null : pageOf(form);
         if (page != null) {
-            pagePlace.addView(page.element());
+            pagePlace.addView(page.element);
         }
         if (back != null) {
             listBox.setVisibility(page == null ? View.VISIBLE : View.GONE);

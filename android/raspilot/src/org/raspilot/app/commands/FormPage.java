@@ -1,6 +1,5 @@
 package org.raspilot.app.commands;
 
-import android.content.Context;
 import android.content.res.Resources;
 import android.view.LayoutInflater;
 import android.view.View;
@@ -22,14 +21,12 @@ import org.raspilot.up.commands.InvalidCommandException;
  * The form of any Command, made from its description. A Command whose one field is a choice of few
  * values has a button for each, with a confirmation.
  */
-final class FormPage implements Page, View.OnClickListener {
+final class FormPage extends Page implements View.OnClickListener {
     private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
     private static final int MAX_CHOICES = 6;
 
     private final CommandForm form;
-    private final CommandsScreen desk;
     private final Map<String, String> draft;
-    private final View element;
     private final List<FieldView> fields = new ArrayList<>();
     private final List<View> buttons = new ArrayList<>();
     private final TextView why;
@@ -39,18 +36,15 @@ final class FormPage implements Page, View.OnClickListener {
 
     /** Creates the form and restores its typed text. */
     FormPage(CommandForm form, CommandsScreen desk) {
+        super(desk, R.layout.page_form);
         this.form = form;
-        this.desk = desk;
         draft = desk.memory().draft(form.name);
-        LayoutInflater inflater = LayoutInflater.from(desk.context());
-        element = inflater.inflate(R.layout.page_form, null);
-        ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandTexts.title(form.name));
-        ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
-        ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
-        why = (TextView) element.findViewById(R.id.page_why);
-        now = (TextView) element.findViewById(R.id.page_now);
-        problem = (TextView) element.findViewById(R.id.page_problem);
+        text(R.id.page_title).setText(CommandTexts.title(form.name));
+        text(R.id.page_name).setText(form.name);
+        text(R.id.page_text).setText(form.text);
+        why = text(R.id.page_why);
+        now = text(R.id.page_now);
+        problem = text(R.id.page_problem);
         send = (Button) element.findViewById(R.id.page_send);
         send.setOnClickListener(this);
         ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
@@ -68,12 +62,7 @@ final class FormPage implements Page, View.OnClickListener {
     }
 
     @Override
-    public View element() {
-        return element;
-    }
-
-    @Override
-    public void update() {
+    void update() {
         Resources words = desk.context().getResources();
         String objection = desk.objectionText(form, Collections.emptyMap());
         TextViews.showOrHide(why, objection);
@@ -115,12 +104,6 @@ final class FormPage implements Page, View.OnClickListener {
         } else {
             desk.send(command, words);
         }
-    }
-
-    private void confirm(BaseCommand command, String words) {
-        Context context = desk.context();
-        desk.confirm(context.getString(R.string.commands_send_question), words,
-                context.getString(R.string.commands_send), () -> desk.send(command, words));
     }
 
     private static boolean isChoice(CommandForm form) {

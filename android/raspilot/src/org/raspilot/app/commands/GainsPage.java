@@ -2,7 +2,6 @@ package org.raspilot.app.commands;
 
 import android.content.Context;
 import android.text.TextUtils;
-import android.view.LayoutInflater;
 import android.view.View;
 import android.widget.Button;
 import android.widget.TextView;
@@ -24,15 +23,13 @@ import org.raspilot.up.ground.GainsService.GainsEntry;
 import org.raspilot.up.ground.GainsService;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
-final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {
+final class GainsPage extends Page implements View.OnClickListener, GainsTable.ChangeListener {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
             Collections.singletonMap("request", true);
 
     private final CommandForm form;
-    private final CommandsScreen desk;
     private final GainsEditor editor;
-    private final View element;
     private final GainsTable table;
     private final TextView why;
     private final TextView state;
@@ -47,16 +44,15 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
 
     /** Creates the page and restores its edits. */
     GainsPage(CommandForm form, CommandsScreen desk) {
+        super(desk, R.layout.page_gains);
         this.form = form;
-        this.desk = desk;
         editor = desk.memory().gains();
-        element = LayoutInflater.from(desk.context()).inflate(R.layout.page_gains, null);
-        ((TextView) element.findViewById(R.id.page_title)).setText(CommandTexts.title(form.name));
-        why = (TextView) element.findViewById(R.id.gains_why);
-        state = (TextView) element.findViewById(R.id.gains_state);
-        problem = (TextView) element.findViewById(R.id.gains_problem);
-        difference = (TextView) element.findViewById(R.id.gains_difference);
-        past = (TextView) element.findViewById(R.id.gains_past);
+        text(R.id.page_title).setText(CommandTexts.title(form.name));
+        why = text(R.id.gains_why);
+        state = text(R.id.gains_state);
+        problem = text(R.id.gains_problem);
+        difference = text(R.id.gains_difference);
+        past = text(R.id.gains_past);
         ask = button(R.id.gains_ask);
         undo = button(R.id.gains_undo);
         discard = button(R.id.gains_discard);
@@ -67,12 +63,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     }
 
     @Override
-    public View element() {
-        return element;
-    }
-
-    @Override
-    public void update() {
+    void update() {
         updateActive();
         String objection = desk.objectionText(form, SET);
         boolean isOffered = objection.isEmpty();

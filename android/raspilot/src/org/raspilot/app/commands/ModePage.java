@@ -2,7 +2,6 @@ package org.raspilot.app.commands;
 
 import android.content.res.Resources;
 import android.view.LayoutInflater;
-import android.view.View;
 import android.view.ViewGroup;
 import android.widget.Button;
 import android.widget.TextView;
@@ -17,10 +16,8 @@ import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.ground.FlightModes;
 
 /** A button for each flight mode that the aircraft reports; others show why they are not offered. */
-final class ModePage implements Page {
+final class ModePage extends Page {
     private final CommandForm form;
-    private final CommandsScreen desk;
-    private final View element;
     private final ViewGroup list;
     private final TextView why;
     private final TextView now;
@@ -28,23 +25,17 @@ final class ModePage implements Page {
 
     /** Creates the page of {@code up.flight_mode.set}. */
     ModePage(CommandForm form, CommandsScreen desk) {
+        super(desk, R.layout.page_modes);
         this.form = form;
-        this.desk = desk;
-        element = LayoutInflater.from(desk.context()).inflate(R.layout.page_modes, null);
-        ((TextView) element.findViewById(R.id.page_title)).setText(CommandTexts.title(form.name));
+        text(R.id.page_title).setText(CommandTexts.title(form.name));
         list = (ViewGroup) element.findViewById(R.id.modes_list);
-        why = (TextView) element.findViewById(R.id.modes_why);
-        now = (TextView) element.findViewById(R.id.modes_now);
+        why = text(R.id.modes_why);
+        now = text(R.id.modes_now);
         update();
     }
 
     @Override
-    public View element() {
-        return element;
-    }
-
-    @Override
-    public void update() {
+    void update() {
         Resources words = desk.context().getResources();
         String objection = desk.objectionText(form, Collections.emptyMap());
         TextViews.showOrHide(why, objection);
@@ -75,8 +66,6 @@ final class ModePage implements Page {
 
     private void confirm(String mode) {
         BaseCommand command = new BaseCommand(form.name, Collections.singletonMap("mode", mode));
-        String words = CommandTexts.asked(form.name, command.data());
-        desk.confirm(desk.context().getString(R.string.commands_send_question), words,
-                desk.context().getString(R.string.commands_send), () -> desk.send(command, words));
+        confirm(command, CommandTexts.asked(form.name, command.data()));
     }
 }

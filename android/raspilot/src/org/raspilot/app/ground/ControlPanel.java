@@ -1,5 +1,6 @@
 package org.raspilot.app.ground;
 
+import android.content.res.Resources;
 import android.view.View;
 import android.widget.Button;
 import android.widget.TextView;
@@ -44,7 +45,7 @@ public final class ControlPanel implements View.OnClickListener {
             return;
         }
         TextViews.show(link, linkText(status));
-        TextViews.show(seat, sentence(status.controlText()));
+        TextViews.show(seat, controlText(status));
         ControlStatus standing = status.control;
         isOurs = standing == ControlStatus.OURS;
         asker = isOurs ? status.requestedBy : null;
@@ -76,21 +77,44 @@ public final class ControlPanel implements View.OnClickListener {
     }
 
     private String linkText(GroundStatus status) {
-        String text = sentence(status.linkText());
+        Resources words = link.getResources();
+        boolean isCurrent = status.isOpen() && !status.isSilent
+                && !Boolean.FALSE.equals(status.isAircraftOnline);
+        String text = isCurrent ? words.getString(R.string.control_connected)
+                : sentence(status.linkText());
         if (!status.isOpen()) {
             return text;
         }
         if (status.keyFault.isEmpty()) {
-            text += " " + sentence(status.securityText());
+            text += " " + (!status.keyName.isEmpty() ? sentence(status.securityText())
+                    : words.getString(status.isTls ? R.string.control_tls : R.string.control_plain));
         }
         if (status.isSilent || status.rateHz == null) {
             return text;
         }
         Double wayMs = status.roundTripMs;
-        String rate = link.getResources().getString(R.string.control_rate, status.rateHz,
+        String rate = words.getString(R.string.control_rate, status.rateHz,
                 status.counters.lostFrames);
         return text + " " + (wayMs == null ? rate : rate + " "
-                + link.getResources().getString(R.string.control_way, Math.round(wayMs)));
+                + words.getString(R.string.control_way, Math.round(wayMs)));
+    }
+
+    private String controlText(GroundStatus status) {
+        Resources words = seat.getResources();
+        switch (status.control) {
+            case OURS:
+                return status.isDirect ? words.getString(R.string.control_direct)
+                        : status.requestedBy == null ? words.getString(R.string.control_ours)
+                        : words.getString(R.string.control_asked, status.requestedBy);
+            case FREE:
+                return words.getString(R.string.control_free);
+            case HELD:
+                return words.getString(R.string.control_held, status.owner);
+            case LATER:
+                return words.getString(R.string.control_listening);
+            default:
+                return words.getString(R.string.control_unknown);
+        }
     }
 
     /** Converts a text to a sentence: with a capital and a full stop. */

@@ -2,8 +2,6 @@ package org.raspilot.app.view;
 
 /** Directions on a compass, in degrees clockwise from north. */
 public final class CompassGeometry {
-    private static final String[] POINTS = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
-
     private CompassGeometry() {
     }
 
@@ -30,18 +28,19 @@ public final class CompassGeometry {
      * Returns the label of a mark of the scale.
      *
      * @param directionDeg a multiple of 15; any turn
-     * @return N, NE and so on each 45 degrees, tens of degrees each other 30, otherwise empty
+     * @param points the eight points from north on
+     * @return a point each 45 degrees, tens of degrees each other 30, otherwise empty
      */
-    public static String label(int directionDeg) {
+    public static String label(int directionDeg, String[] points) {
         int whole = ((directionDeg % 360) + 360) % 360;
         if (whole % 45 == 0) {
-            return POINTS[whole / 45];
+            return points[whole / 45];
         }
         return whole % 30 == 0 ? Integer.toString(whole) : "";
     }
 
-    /** Returns the nearest of the eight points, as {@code NE}. */
-    public static String point(float directionDeg) {
-        return POINTS[Math.round(wrapped(directionDeg) / 45) % 8];
+    /** Returns the nearest of the eight points, which begin at north. */
+    public static String point(float directionDeg, String[] points) {
+        return points[Math.round(wrapped(directionDeg) / 45) % 8];
     }
 }

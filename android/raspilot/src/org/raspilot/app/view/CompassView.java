@@ -19,12 +19,14 @@ public final class CompassView extends Instrument {
     private float homeDeg = Float.NaN;
     private String figures = UNKNOWN;
     private final String homeLetter;
+    private final String[] points;
 
     /** Creates the view from a layout. */
     public CompassView(Context context, AttributeSet attributes) {
         super(context, attributes);
+        points = getResources().getStringArray(R.array.view_points);
         for (int each = 0; each < names.length; each++) {
-            names[each] = CompassGeometry.label(each * STEP_DEG * LABEL_EACH);
+            names[each] = CompassGeometry.label(each * STEP_DEG * LABEL_EACH, points);
         }
         homeLetter = context.getString(R.string.view_home_letter);
     }
@@ -80,7 +82,7 @@ public final class CompassView extends Instrument {
 
     @Override
     protected String describe() {
-        String point = CompassGeometry.point(headingDeg);
+        String point = CompassGeometry.point(headingDeg, points);
         return getContext().getString(R.string.view_heading, figures, point);
     }
 

@@ -36,7 +36,7 @@ public final class TrackView extends Instrument {
     private final GestureDetector drag;
     private final Path arrow = new Path();
     private final String homeLetter;
-    private final String northLetter = CompassGeometry.point(0);
+    private final String[] points;
     private float[] northM = new float[0];
     private float[] eastM = new float[0];
     private boolean[] isBreak = new boolean[0];
@@ -59,6 +59,7 @@ public final class TrackView extends Instrument {
         pinch = new ScaleGestureDetector(context, new Pinch());
         drag = new GestureDetector(context, new Drag());
         homeLetter = context.getString(R.string.view_home_letter);
+        points = getResources().getStringArray(R.array.view_points);
         arrow.moveTo(0, -dp(11));
         arrow.lineTo(dp(7), dp(9));
         arrow.lineTo(0, dp(4));
@@ -173,7 +174,7 @@ public final class TrackView extends Instrument {
         double away = Math.hypot(aircraftNorthM, aircraftEastM);
         double bearing = Math.toDegrees(Math.atan2(aircraftEastM, aircraftNorthM));
         return getContext().getString(R.string.view_track, TrackGeometry.distanceText(away),
-                CompassGeometry.point((float) bearing));
+                CompassGeometry.point((float) bearing, points));
     }
 
     @Override
@@ -319,7 +320,7 @@ public final class TrackView extends Instrument {
         canvas.drawLine(x, dp(8), x, dp(24), line(colors().ink, 2));
         canvas.drawLine(x, dp(8), x - dp(4), dp(14), pen);
         canvas.drawLine(x, dp(8), x + dp(4), dp(14), pen);
-        centred(canvas, northLetter, x, dp(24) + sp(8), 12, colors().ink);
+        centred(canvas, points[0], x, dp(24) + sp(8), 12, colors().ink);
     }
 
     private final class Pinch extends ScaleGestureDetector.SimpleOnScaleGestureListener {

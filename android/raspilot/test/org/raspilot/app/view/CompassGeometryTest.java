@@ -5,6 +5,8 @@ import static org.junit.Assert.assertEquals;
 import org.junit.Test;
 
 public final class CompassGeometryTest {
+    private static final String[] POINTS = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+
     @Test
     public void anyDirectionIsWithinOneTurn() {
         assertEquals(350, CompassGeometry.wrapped(-10), 0);
@@ -31,19 +33,19 @@ public final class CompassGeometryTest {
 
     @Test
     public void pointsStandEachFortyFiveDegreesAndNumbersEachThirty() {
-        assertEquals("N", CompassGeometry.label(0));
-        assertEquals("N", CompassGeometry.label(-360));
-        assertEquals("NE", CompassGeometry.label(45));
-        assertEquals("W", CompassGeometry.label(-90));
-        assertEquals("30", CompassGeometry.label(390));
-        assertEquals("", CompassGeometry.label(15));
+        assertEquals("N", CompassGeometry.label(0, POINTS));
+        assertEquals("N", CompassGeometry.label(-360, POINTS));
+        assertEquals("NE", CompassGeometry.label(45, POINTS));
+        assertEquals("W", CompassGeometry.label(-90, POINTS));
+        assertEquals("30", CompassGeometry.label(390, POINTS));
+        assertEquals("", CompassGeometry.label(15, POINTS));
     }
 
     @Test
     public void theNearestPointIsNamed() {
-        assertEquals("N", CompassGeometry.point(359));
-        assertEquals("N", CompassGeometry.point(22));
-        assertEquals("NE", CompassGeometry.point(23));
-        assertEquals("W", CompassGeometry.point(-90));
+        assertEquals("N", CompassGeometry.point(359, POINTS));
+        assertEquals("N", CompassGeometry.point(22, POINTS));
+        assertEquals("NE", CompassGeometry.point(23, POINTS));
+        assertEquals("W", CompassGeometry.point(-90, POINTS));
     }
 }

@@ -1,0 +1,1 @@
+"""What the servers of a cluster share: a NATS client, its key-value store, leases."""

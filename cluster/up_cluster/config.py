@@ -1,0 +1,96 @@
+"""The section `cluster:` of proxy.yml, `pool:` of runner.yml, and all of fleet.yml."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from up.config import ConfigFile, key
+from up.errors import UserError
+
+DEFAULT_PORT = 4222
+_SERVER = re.compile(
+    r"(?:(?:nats|tls)://)?(?:\[([0-9A-Fa-f:.%]+)\]|([A-Za-z0-9._-]+))(?::([0-9]{1,5}))?", re.ASCII
+)
+_WORD = re.compile(r"[A-Za-z0-9_-]{1,32}", re.ASCII)
+
+
+class ClusterError(UserError):
+    """A file of `cluster:` is wrong; `code` is `cluster_credentials` or `no_file`."""
+
+    def __init__(self, code: str, reason: str) -> None:
+        super().__init__(reason, code)
+
+
+class Server(NamedTuple):
+    """Address of a NATS server."""
+
+    host: str
+    port: int
+
+
+@dataclass(frozen=True, slots=True)
+class ClusterConfig:
+    """The NATS servers over which several proxies or runners act as one."""
+
+    servers: str = key(
+        "",
+        "NATS servers with JetStream, separated by commas, as in nats://a:4222,nats://b:4222. "
+        "Empty: no cluster.",
+        max_length=4096,
+    )
+    tenant: str = key(
+        "default",
+        "The owner of the aircraft. One node serves one tenant; give each its own NATS account.",
+        max_length=32,
+    )
+    credentials: str = key(
+        "",
+        "File with USER:PASSWORD or a token for NATS, mode 600, relative to this file. "
+        "Empty: none, or the certificate of tls.",
+        max_length=4096,
+    )
+    tls: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem, key.pem and revoked.pem for the connection to NATS, "
+        "relative to this file. The servers need 'handshake_first: true'. Empty: no TLS.",
+        max_length=4096,
+    )
+    replicas: int = key(
+        3, "Servers that keep each lease: 3, or 1 where there is one.", minimum=1, maximum=5
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        if not _WORD.fullmatch(self.tenant):
+            yield "tenant", "must be 1 to 32 of A-Z a-z 0-9 _ -"
+        for text in self.servers.split(",") if self.servers else ():
+            match = _SERVER.fullmatch(text.strip())
+            if match is None or not 0 < int(match[3] or DEFAULT_PORT) < 65536:
+                yield "servers", f"must be as in nats://a:4222,nats://b:4222, not {text.strip()}"
+
+    def addresses(self) -> list[Server]:
+        """Return the servers."""
+        found = (_SERVER.fullmatch(text.strip()) for text in self.servers.split(","))
+        return [Server(m[1] or m[2], int(m[3] or DEFAULT_PORT)) for m in found if m]
+
+    def login(self, folder: Path) -> dict[str, str]:
+        """Return the fields of CONNECT that identify this program. Raises ClusterError."""
+        if not self.credentials:
+            return {}
+        path = folder / self.credentials
+        try:
+            if path.stat().st_mode & 0o077:
+                reason = f"others may read {path}: run 'chmod 600 {path}'"
+                raise ClusterError("cluster_credentials", reason)
+            text = path.read_text(encoding="utf-8").strip()
+        except (OSError, UnicodeDecodeError) as error:
+            reason = f"cannot read {path}: {getattr(error, 'strerror', None) or error}"
+            raise ClusterError("no_file", reason) from None
+        user, colon, password = text.partition(":")
+        if not text or "\n" in text:
+            raise ClusterError("cluster_credentials", f"{path} is not one line")
+        return {"user": user, "pass": password} if colon else {"auth_token": text}
+
+
+FLEET = ConfigFile("fleet.yml", ClusterConfig)

@@ -1,0 +1,1 @@
+"""The program `up-fleet`: the proxies and runners of a cluster, listed and controlled."""

@@ -1,0 +1,218 @@
+"""A client of all members of a cluster."""
+
+from __future__ import annotations
+
+import json
+import secrets
+from collections.abc import Awaitable, Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from twisted.internet.defer import Deferred, TimeoutError
+from twisted.internet.task import deferLater
+from twisted.python.failure import Failure
+
+from up.errors import UserError
+from up_cluster.config import ClusterConfig
+from up_cluster.jetstream import JetStreamError
+from up_cluster.key_value import Entry
+from up_cluster.lease import parse_record
+from up_cluster.membership import Membership, aircraft_of, parse
+from up_cluster.nats_client import NatsUnavailableError
+from up_cluster.nats_protocol import Message
+
+CONNECT_LIMIT_S = 10.0
+POLL_S = 0.25
+ANSWER_S = 5.0
+KINDS = {"aircraft": "proxy", "instance": "runner"}
+"""The keys of the leases, and the kind of member that holds them."""
+
+Rows = list[dict[str, Any]]
+
+
+class FleetError(UserError):
+    """A member refused a request, or did not answer."""
+
+
+def report_in(payload: bytes) -> dict[str, Any] | None:
+    """Return a member's report; None for what is none, as of a member of another version."""
+    try:
+        report = parse(payload)
+    except ValueError:
+        return None
+    names = [report.get(each) for each in ("id", "kind", "host")]
+    rows, is_draining = report.get("aircraft"), report.get("is_draining")
+    if not (all(isinstance(each, str) for each in names) and isinstance(is_draining, bool)):
+        return None
+    if not (isinstance(rows, list) and all(isinstance(each, dict) for each in rows)):
+        return None
+    return report if all({"aircraft", "state"} <= row.keys() for row in rows) else None
+
+
+class Fleet:
+    """Sends requests to the members; every method reports the result, not the request.
+
+    The constructor raises ClusterError, TLSError.
+    """
+
+    def __init__(self, reactor: Any, config: ClusterConfig, folder: Path) -> None:
+        self._reactor = reactor
+        self._config = config
+        self._member = Membership(reactor, config, folder, program="up-fleet")
+        self._member.makers.clear()
+        self._client = self._member.client
+
+    def run(self, work: Callable[[], Awaitable[Any]]) -> Any:
+        """Connect, run until the work is done, and return its result. Raises FleetError."""
+        result: list[Any] = []
+
+        async def steps() -> Any:
+            try:
+                self._client.start()
+                await self._wait_for(lambda: self._client.is_connected, CONNECT_LIMIT_S)
+                if not self._client.is_connected:
+                    text = f"no connection to NATS at {self._config.servers} (fleet.yml: servers)"
+                    raise FleetError(text, "no_connection")
+                return await work()
+            except (NatsUnavailableError, JetStreamError) as error:
+                raise FleetError(str(error), "no_answer") from None
+            finally:
+                await self._client.stop()
+
+        def finish(outcome: Any) -> None:
+            result.append(outcome)
+            self._reactor.stop()
+
+        self._reactor.callWhenRunning(lambda: Deferred.fromCoroutine(steps()).addBoth(finish))
+        self._reactor.run()
+        if not result:
+            raise KeyboardInterrupt
+        if isinstance(result[0], Failure):
+            result[0].raiseException()
+        return result[0]
+
+    async def overview(self, wait_s: float) -> dict[str, Any]:
+        """Return the members that answered in time, and the entries of those that did not."""
+        leases, wanted = await self._leases(), await self._keys("wanted")
+        members = await self._reports(wait_s, leases)
+        known = {each["id"] for each in members}
+        held = {row["aircraft"] for row in leases if row["kind"] == "instance"}
+        return {
+            "members": members,
+            "lost": [row for row in leases if row["id"] not in known],
+            "orphans": sorted(set(wanted) - held),
+        }
+
+    async def where(self, aircraft: str, wait_s: float) -> dict[str, Any]:
+        """Return the members that hold an aircraft. Raises FleetError without one."""
+        leases = [each for each in await self._leases() if each["aircraft"] == aircraft]
+        members = {each["id"]: each for each in await self._reports(wait_s, leases)}
+        places = []
+        for lease in leases:
+            member = members.get(lease["id"], {})
+            row = next(
+                (each for each in member.get("aircraft", ()) if each["aircraft"] == aircraft),
+                {"state": "no answer"},
+            )
+            place = {"id": lease["id"], "host": member.get("host", lease["host"])}
+            places.append({**row, "kind": KINDS[lease["kind"]], **place})
+        if not places:
+            raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
+        return {"aircraft": aircraft, "places": places}
+
+    async def drain(self, member: str, wait_s: float) -> dict[str, Any]:
+        """Drain a member and wait until it holds nothing. Raises FleetError."""
+        left = (await self._ask(member, {"action": "drain"}))["leaving"]
+
+        async def is_empty() -> bool:
+            return not (await self._ask(member, {"action": "report"}))["aircraft"]
+
+        end_s = self._reactor.seconds() + wait_s
+        while not await is_empty():
+            if self._reactor.seconds() > end_s:
+                text = f"{member} drains, but still has aircraft after {wait_s:g} s"
+                raise FleetError(text, "not_drained", member=member)
+            await deferLater(self._reactor, POLL_S)
+        return {"id": member, "left": left}
+
+    async def kick(self, aircraft: str, kind: str) -> dict[str, Any]:
+        """Disconnect an aircraft, or stop its instance. Raises FleetError."""
+        for lease in await self._leases():
+            if (lease["aircraft"], lease["kind"]) == (aircraft, kind):
+                await self._ask(lease["id"], {"action": "kick", "aircraft": aircraft})
+                done = "stopped" if kind == "instance" else "disconnected"
+                return {"aircraft": aircraft, "done": done, "id": lease["id"]}
+        entry = (await self._keys("wanted")).get(aircraft) if kind == "instance" else None
+        if entry is None:
+            raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
+        await self._member.bucket.purge(entry.key, expected=entry.revision)
+        return {"aircraft": aircraft, "done": "not_wanted", "id": ""}
+
+    async def _ask(self, member: str, request: dict[str, Any]) -> dict[str, Any]:
+        try:
+            answer = await self._member.ask(member, request, ANSWER_S)
+        except NatsUnavailableError as error:
+            text = f"the member {member} does not answer ({error.code})"
+            raise FleetError(text, "no_answer", member=member) from None
+        if answer.get("code"):
+            text = f"the member {member} refused: {answer['code']}"
+            raise FleetError(text, str(answer["code"]), member=member)
+        return answer
+
+    async def _reports(self, wait_s: float, leases: Sequence[dict[str, Any]]) -> Rows:
+        """Return the answers of `wait_s`; of members that hold leases those of ANSWER_S."""
+        found: Rows = []
+        inbox = f"_INBOX.{secrets.token_hex(8)}"
+
+        def on_report(message: Message) -> None:
+            report = report_in(message.payload)
+            if report is not None:
+                found.append(report)
+
+        sid = self._client.subscribe(inbox, on_report)
+        request = json.dumps({"action": "report"}).encode()
+        self._client.publish(self._member.subject("members"), request, reply=inbox)
+        await deferLater(self._reactor, wait_s)
+        holders = {each["id"] for each in leases}
+        await self._wait_for(lambda: holders <= {each["id"] for each in found}, ANSWER_S)
+        self._client.unsubscribe(sid)
+        return sorted(found, key=lambda each: (each["kind"], each["host"], each["id"]))
+
+    async def _leases(self) -> Rows:
+        rows: Rows = []
+        for kind in KINDS:
+            for name, entry in (await self._keys(kind)).items():
+                record = parse_record(entry)
+                if record is not None:
+                    row = {"kind": kind, "aircraft": name, "id": record.node}
+                    rows.append({**row, "host": str(record.data.get("host", ""))})
+        return rows
+
+    async def _keys(self, kind: str) -> dict[str, Entry]:
+        """Return the present entries by aircraft."""
+        found: dict[str, Entry] = {}
+        done: Deferred[None] = Deferred()
+
+        def on_entry(entry: Entry) -> None:
+            if not entry.is_deleted:
+                found[aircraft_of(entry.key)] = entry
+
+        def on_current(is_current: bool) -> None:
+            if is_current and not done.called:
+                done.callback(None)
+
+        pattern = self._member.key(kind, "*")
+        watch = self._member.bucket.watch(pattern, on_entry, on_current, self._reactor)
+        done.addTimeout(ANSWER_S, self._reactor)
+        try:
+            await done
+        except TimeoutError:
+            raise NatsUnavailableError("timeout") from None
+        finally:
+            watch.stop()
+        return found
+
+    async def _wait_for(self, is_true: Callable[[], bool], limit_s: float) -> None:
+        end_s = self._reactor.seconds() + limit_s
+        while not is_true() and self._reactor.seconds() < end_s:
+            await deferLater(self._reactor, POLL_S / 5)

@@ -1,0 +1,89 @@
+"""Requests to JetStream: its API, acknowledged writes, stored messages.
+
+https://docs.nats.io/reference/reference-protocols/nats_api_reference
+"""
+
+import json
+from base64 import b64decode
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from up_cluster import nats_protocol as nats
+from up_cluster.nats_client import NatsClient
+
+STREAM_NAME_EXISTS = 10058
+NANOSECONDS = 1_000_000_000
+EXPECTED = "Nats-Expected-Last-Subject-Sequence"
+"""Header of a write: the sequence of the subject's last message, 0: none."""
+_WRONG_LAST_SEQUENCE = 10071
+_NO_MESSAGE = 10037
+
+
+class JetStreamError(Exception):
+    """JetStream refused a request; `code` is its err_code."""
+
+    def __init__(self, code: int, reason: str) -> None:
+        super().__init__(f"JetStream refused: {reason} ({code})")
+        self.code = code
+
+
+class WrongRevisionError(JetStreamError):
+    """The subject has another last message than the write expected."""
+
+
+class Stored(NamedTuple):
+    """A message of a stream."""
+
+    subject: str
+    sequence: int
+    headers: dict[str, str]
+    data: bytes
+
+
+async def api(client: NatsClient, what: str, body: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the answer of the API. Raises NatsUnavailableError, JetStreamError."""
+    answer = await client.request(f"$JS.API.{what}", json.dumps(body).encode())
+    return _checked(answer.payload)
+
+
+async def write(
+    client: NatsClient, subject: str, payload: bytes, headers: Mapping[str, str] | None = None
+) -> int:
+    """Write a message and return its sequence.
+
+    Raises WrongRevisionError, JetStreamError, NatsUnavailableError: whether it was written is
+    unknown then.
+    """
+    answer = await client.request(subject, payload, headers=headers)
+    return int(_checked(answer.payload)["seq"])
+
+
+async def stored(client: NatsClient, stream: str, query: Mapping[str, Any]) -> Stored | None:
+    """Return the message that a query selects, `last_by_subj` or `seq` with `next_by_subj`.
+
+    None without such a message. A leader that a partition has cut off answers with old ones for
+    some seconds. Raises NatsUnavailableError, JetStreamError.
+    """
+    try:
+        found = await api(client, f"STREAM.MSG.GET.{stream}", query)
+    except JetStreamError as error:
+        if error.code == _NO_MESSAGE:
+            return None
+        raise
+    message = found["message"]
+    _, headers = nats.parse_headers(b64decode(message.get("hdrs", "")))
+    data = b64decode(message.get("data", ""))
+    return Stored(str(message["subject"]), int(message["seq"]), headers, data)
+
+
+def _checked(payload: bytes) -> dict[str, Any]:
+    """Return JetStream's answer. Raises JetStreamError."""
+    try:
+        answer = json.loads(payload)
+    except ValueError:
+        raise JetStreamError(0, f"not JSON: {payload[:60]!r}") from None
+    error = answer.get("error")
+    if error:
+        code, text = int(error.get("err_code", 0)), str(error.get("description", ""))
+        raise (WrongRevisionError if code == _WRONG_LAST_SEQUENCE else JetStreamError)(code, text)
+    return dict(answer)

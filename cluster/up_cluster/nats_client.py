@@ -1,0 +1,387 @@
+"""A NATS client on Twisted's reactor: it connects to one of several servers and stays connected."""
+
+import secrets
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from twisted.application.internet import ClientService
+from twisted.internet.abstract import isIPAddress, isIPv6Address
+from twisted.internet.defer import CancelledError, Deferred
+from twisted.internet.endpoints import (
+    HostnameEndpoint,
+    TCP4ClientEndpoint,
+    TCP6ClientEndpoint,
+)
+from twisted.internet.error import ConnectionDone
+from twisted.internet.protocol import Factory, Protocol, connectionDone
+from twisted.python.failure import Failure
+
+from up.log import Limited, UpLogger
+from up.system.backoff import Backoff
+from up.system.clock import Clock, Timer, cancel
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSClientEndpoint
+from up.version import VERSION
+from up_cluster import nats_protocol as nats
+from up_cluster.config import Server
+
+CONNECT_LIMIT_S = 2.0
+PING_S = 0.5
+"""Time between two PINGs; a server that sends nothing for SILENCE_S is left."""
+SILENCE_S = 2.0
+MAX_WAITING_BYTES = 2**20
+"""Data that wait for a slow server; beyond it the oldest are dropped."""
+REQUEST_LIMIT_S = 2.0
+LOG_INTERVAL_S = 10.0
+_GOOD_AFTER_S = 5.0
+_log = UpLogger.get_logger("cluster")
+
+OnMessage = Callable[[nats.Message], object]
+
+
+class NatsUnavailableError(Exception):
+    """A request got no answer: `code` is `no_connection`, `timeout` or `no_responders`.
+
+    After `timeout` and `no_connection` it is unknown whether the request was carried out.
+    """
+
+    def __init__(self, code: str) -> None:
+        super().__init__(f"no answer from NATS ({code})")
+        self.code = code
+
+
+class NatsClient:
+    """Publishes, subscribes and requests; every call returns without waiting for the network.
+
+    `start` it, then use it: subscriptions survive a change of the server. Messages without
+    a connection are dropped and counted, as are the oldest messages behind a slow server.
+    `on_connected(bool)` is called at each change. The reactor's thread only.
+    """
+
+    def __init__(
+        self,
+        reactor: Any,
+        servers: Sequence[Server],
+        *,
+        name: str,
+        login: Mapping[str, str] | None = None,
+        tls: TLSFiles | None = None,
+        on_connected: Callable[[bool], object] = lambda _: None,
+    ) -> None:
+        self._reactor = reactor
+        self._servers = deque(servers)
+        self._tls = tls
+        self._on_connected = on_connected
+        self.options = {
+            "verbose": False,
+            "pedantic": False,
+            "echo": False,
+            "headers": True,
+            "no_responders": True,
+            "protocol": 1,
+            "lang": "python-twisted",
+            "version": VERSION,
+            "name": name,
+            "tls_required": tls is not None,
+            **(login or {}),
+        }
+        self._limited = Limited(reactor, LOG_INTERVAL_S)
+        self._backoff = Backoff()
+        self._began_s = 0.0
+        self._ready_s: float | None = None
+        factory: Any = Factory.forProtocol(self._build)
+        factory.noisy = False
+        make: Any = ClientService
+        self._service = make(self, factory, retryPolicy=self._pause_s, clock=reactor)
+        self._link: NatsLink | None = None
+        self._attempted: NatsLink | None = None
+        self._subscriptions: dict[int, tuple[str, OnMessage]] = {}
+        self._next_sid = 1
+        self._inbox = f"_INBOX.{secrets.token_hex(8)}"
+        self._next_request = 0
+        self._requests: dict[str, Deferred[nats.Message]] = {}
+        self.dropped = 0
+        """Messages that were published but never left."""
+        self.reconnects = 0
+
+    def start(self) -> None:
+        self.subscribe(f"{self._inbox}.*", self._on_answer)
+        self._service.startService()
+
+    async def stop(self) -> None:
+        """Send what waits as far as the server reads it, and disconnect."""
+        if self._attempted is not None:
+            # A registered producer would keep the connection open.
+            self._attempted.transport.unregisterProducer()
+        await self._service.stopService()
+        self._fail_requests()
+        self._limited.stop()
+
+    @property
+    def is_connected(self) -> bool:
+        return self._link is not None
+
+    @property
+    def server(self) -> str:
+        """The name of the connected server; empty without one."""
+        return "" if self._link is None else self._link.server
+
+    def publish(
+        self,
+        subject: str,
+        payload: bytes,
+        *,
+        headers: Mapping[str, str] | None = None,
+        reply: str = "",
+    ) -> None:
+        """Send a message that may be dropped. Raises ValueError for an invalid subject."""
+        if self._link is None:
+            self.dropped += 1
+        else:
+            self.dropped += self._link.send_data(nats.publish(subject, payload, reply, headers))
+
+    def subscribe(self, subject: str, on_message: OnMessage) -> int:
+        """Call `on_message` for each message; return the handle for `unsubscribe`."""
+        sid, self._next_sid = self._next_sid, self._next_sid + 1
+        line = nats.subscribe(subject, sid)
+        self._subscriptions[sid] = subject, on_message
+        if self._link is not None:
+            self._link.send(line)
+        return sid
+
+    def unsubscribe(self, sid: int) -> None:
+        """End a subscription. Raises KeyError for an unknown handle."""
+        del self._subscriptions[sid]
+        if self._link is not None:
+            self._link.send(nats.unsubscribe(sid))
+
+    async def request(
+        self,
+        subject: str,
+        payload: bytes,
+        *,
+        headers: Mapping[str, str] | None = None,
+        limit_s: float = REQUEST_LIMIT_S,
+    ) -> nats.Message:
+        """Return the first answer. Raises NatsUnavailableError; a request is never dropped."""
+        if self._link is None:
+            raise NatsUnavailableError("no_connection")
+        self._next_request += 1
+        key = str(self._next_request)
+        answer: Deferred[nats.Message] = Deferred()
+        self._requests[key] = answer
+        self._link.send(nats.publish(subject, payload, f"{self._inbox}.{key}", headers))
+        timer = self._reactor.callLater(limit_s, self._fail_request, key, "timeout")
+        try:
+            message = await answer
+        except CancelledError:
+            raise NatsUnavailableError("timeout") from None
+        finally:
+            cancel(timer)
+            self._requests.pop(key, None)
+        if message.header and nats.parse_headers(message.header)[0] == 503:
+            raise NatsUnavailableError("no_responders")
+        return message
+
+    def connect(self, protocolFactory: Any) -> Deferred[Any]:  # noqa: N803 - Twisted's name
+        """Make one attempt, at the next server; the service calls it as its endpoint."""
+        self._began_s = self._reactor.seconds()
+        server = self._servers[0]
+        self._servers.rotate(-1)
+        make: Any = HostnameEndpoint
+        if isIPAddress(server.host):
+            make = TCP4ClientEndpoint
+        elif isIPv6Address(server.host):
+            make = TCP6ClientEndpoint
+        endpoint: Any = make(self._reactor, server.host, server.port, CONNECT_LIMIT_S)
+        if self._tls is not None:
+            endpoint = TLSClientEndpoint(self._reactor, endpoint, self._tls, server.host)
+        attempt: Deferred[Any] = endpoint.connect(protocolFactory)
+        return attempt.addErrback(self._on_failed, server)
+
+    def _on_failed(self, failure: Failure, server: Server) -> Failure:
+        if not failure.check(CancelledError):
+            self._log_lost(server, getattr(failure.value, "code", "no_connection"), failure.value)
+        return failure
+
+    def _log_lost(self, server: Server | str, code: str, reason: object) -> None:
+        where = server if isinstance(server, str) else f"{server.host}:{server.port}"
+        self._limited.log(
+            _log.warn,
+            "no connection to NATS at {server}: {reason}",
+            key=where,
+            code=code,
+            server=where,
+            reason=str(reason).strip().rstrip("."),
+        )
+
+    def _pause_s(self, failed_attempts: int) -> float:
+        now_s = self._reactor.seconds()
+        if self._ready_s is not None and now_s - self._ready_s >= _GOOD_AFTER_S:
+            self._backoff.reset()
+        self._ready_s = None
+        return self._backoff.pause_s(now_s - self._began_s)
+
+    def _build(self) -> "NatsLink":
+        last = self._servers[-1]
+        self._attempted = NatsLink(self, self._reactor, f"{last.host}:{last.port}")
+        return self._attempted
+
+    def on_ready(self, link: "NatsLink") -> None:
+        """Use a link whose server has accepted CONNECT."""
+        self._link, self._ready_s = link, self._reactor.seconds()
+        self.reconnects += 1
+        _log.info("connected to NATS server {server}", code="nats_connected", server=link.server)
+        self._on_connected(True)
+
+    def on_lost(self, link: "NatsLink", code: str, reason: str) -> None:
+        if link is self._attempted:
+            self._attempted = None
+        if link is not self._link:
+            if code != "closed":
+                self._log_lost(link.server, code, reason)
+            return
+        self._link = None
+        self.dropped += link.waiting
+        self._log_lost(link.server, code, reason)
+        self._fail_requests()
+        self._on_connected(False)
+
+    def subscription_lines(self) -> list[bytes]:
+        return [nats.subscribe(subject, sid) for sid, (subject, _) in self._subscriptions.items()]
+
+    def on_message(self, message: nats.Message) -> None:
+        subscribed = self._subscriptions.get(message.sid)
+        if subscribed is not None:
+            try:
+                subscribed[1](message)
+            except Exception:  # noqa: BLE001 - a bug costs one message, not the connection
+                _log.failure("a message failed on a bug", code="cluster_bug")
+
+    def _on_answer(self, message: nats.Message) -> None:
+        answer = self._requests.pop(message.subject.rpartition(".")[2], None)
+        if answer is not None:
+            answer.callback(message)
+
+    def _fail_request(self, key: str, code: str) -> None:
+        answer = self._requests.pop(key, None)
+        if answer is not None:
+            answer.errback(NatsUnavailableError(code))
+
+    def _fail_requests(self) -> None:
+        for key in list(self._requests):
+            self._fail_request(key, "no_connection")
+
+
+class NatsLink(Protocol):
+    """One connection to a server: INFO, CONNECT, then messages until it is lost."""
+
+    transport: Any
+
+    def __init__(self, client: NatsClient, clock: Clock, server: str) -> None:
+        self._client = client
+        self._clock = clock
+        self._parser = nats.NatsParser()
+        self._ping: Timer | None = None
+        self._last_rx_s = 0.0
+        self._is_ready = False
+        self._is_paused = False
+        self._data: deque[bytes] = deque()
+        self._data_bytes = 0
+        self._failed: tuple[str, str] | None = None
+        self.server = server
+        """Its address, later its name."""
+
+    @property
+    def waiting(self) -> int:
+        """Messages that wait for the server."""
+        return len(self._data)
+
+    def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
+        self.transport.registerProducer(self, True)
+        self.transport.setTcpNoDelay(True)
+        self._last_rx_s = self._clock.seconds()
+        self._ping = self._clock.callLater(PING_S, self._on_ping_due)
+
+    def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
+        self._last_rx_s = self._clock.seconds()
+        try:
+            for event in self._parser.feed(data):
+                if type(event) is nats.Message:
+                    self._client.on_message(event)
+                else:
+                    self._on_control(event)
+        except nats.NatsProtocolError as error:
+            self._fail(error.code, str(error))
+
+    def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
+        cancel(self._ping)
+        default = "closed" if reason.check(ConnectionDone) else "no_connection"
+        code = getattr(reason.value, "code", default)
+        code, text = self._failed or (code, reason.getErrorMessage())
+        self._client.on_lost(self, code, text)
+
+    def send(self, frame: bytes) -> None:
+        """Send a frame that is never dropped."""
+        self.transport.write(frame)
+
+    def send_data(self, frame: bytes) -> int:
+        """Send a message, or keep it for a slow server; return how many older ones were dropped."""
+        if not self._is_paused:
+            self.transport.write(frame)
+            return 0
+        self._data.append(frame)
+        self._data_bytes += len(frame)
+        dropped = 0
+        while self._data_bytes > MAX_WAITING_BYTES:
+            self._data_bytes -= len(self._data.popleft())
+            dropped += 1
+        return dropped
+
+    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
+        self._is_paused = True
+
+    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
+        self._is_paused = False
+        while self._data and not self._is_paused:
+            frame = self._data.popleft()
+            self._data_bytes -= len(frame)
+            self.transport.write(frame)
+
+    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: connectionLost follows."""
+
+    def abort(self) -> None:
+        self.transport.abortConnection()
+
+    def _on_control(self, event: nats.Event) -> None:
+        if isinstance(event, nats.Ping):
+            self.send(nats.PONG)
+        elif isinstance(event, nats.Info):
+            self.server = str(event.fields.get("server_name", self.server))
+            if not self._is_ready:
+                lines = self._client.subscription_lines()
+                self.send(b"".join([nats.connect(self._client.options), *lines, nats.PING]))
+            elif event.fields.get("ldm"):
+                self._fail("lame_duck", "the server is about to end")
+        elif isinstance(event, nats.Failed):
+            if not event.text.lower().startswith("permissions violation"):
+                self._fail("nats_refused", event.text)
+            else:
+                _log.error("NATS refuses: {reason}", code="nats_permission", reason=event.text)
+        elif not self._is_ready:
+            self._is_ready = True
+            self._client.on_ready(self)
+
+    def _fail(self, code: str, reason: str) -> None:
+        self._failed = self._failed or (code, reason)
+        self.abort()
+
+    def _on_ping_due(self) -> None:
+        if self._clock.seconds() - self._last_rx_s > SILENCE_S:
+            self._fail("silent", f"nothing received for {SILENCE_S:g} s")
+            return
+        self._ping = self._clock.callLater(PING_S, self._on_ping_due)
+        if self._is_ready:
+            self.send(nats.PING)

@@ -1,0 +1,1 @@
+"""Recorded flights in a browser: `up log view`."""

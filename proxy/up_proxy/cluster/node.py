@@ -1,0 +1,179 @@
+"""This proxy as a node of a cluster: its NATS client, its leases, its heartbeat."""
+
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from twisted.internet.defer import Deferred, DeferredList
+
+from up.log import Limited, UpLogger
+from up.protocols.proxy_lines import Side
+from up.system.clock import Timer, cancel
+from up_cluster.config import ClusterConfig
+from up_cluster.lease import Lease
+from up_cluster.membership import Membership, word
+from up_cluster.nats_protocol import Message
+from up_proxy.cluster.fleet_actions import FleetActions
+from up_proxy.cluster.handshake import ClusterHandshake
+from up_proxy.cluster.node_messages import Envelope, MalformedError, pack, unpack
+from up_proxy.cluster.poller_reactor import PollerReactor
+from up_proxy.cluster.sender_ages import SenderAges
+from up_proxy.cluster.session import ClusterSession
+from up_proxy.metrics import Metric, Samples
+from up_proxy.poller import Poller
+from up_proxy.registry import AircraftRegistry
+
+MAX_AGE_S = 2.0
+"""Older messages of other nodes are dropped."""
+HEARTBEAT_S = 1.0
+STOP_LIMIT_S = 1.0
+"""How long the end waits for NATS to take the released leases."""
+_log = UpLogger.get_logger("proxy")
+
+
+class ClusterNode:
+    """What the sessions of this node share. The constructor raises ClusterError, TLSError."""
+
+    def __init__(
+        self, reactor: Any, poller: Poller, config: ClusterConfig, folder: Path, max_listeners: int
+    ) -> None:
+        self._reactor = reactor
+        self._poller = poller
+        self._max_listeners = max_listeners
+        self._sessions: set[ClusterSession] = set()
+        self._member = Membership(
+            reactor,
+            config,
+            folder,
+            program="up-proxy",
+            client_reactor=PollerReactor(reactor, poller),
+        )
+        self._member.on_connected = self._on_connected
+        self._member.on_ready = self._on_ready
+        self.id = self._member.id
+        self._fleet = FleetActions(reactor, self._sessions, self.drain)
+        self._member.actions.update(self._fleet.actions)
+        self.on_drain: Callable[[], object] = lambda: None
+        self.leases = self._member.leases
+        self._client = self._member.client
+        self._ages = SenderAges()
+        self._releases: set[Deferred[None]] = set()
+        self._timer: Timer | None = None
+        self.refused: Counter[str] = Counter()
+        self.stale = 0
+        self.fenced = 0
+        self._malformed = 0
+
+    def start(self) -> None:
+        self._client.subscribe(self._member.subject("nodes"), self._on_heartbeat)
+        self._member.start()
+        self._beat()
+
+    def stop(self) -> "Deferred[None]":
+        """Leave every aircraft to the other nodes, and disconnect."""
+        cancel(self._timer)
+        for session in list(self._sessions):
+            session.drain()
+        waiting = DeferredList(list(self._releases)).addTimeout(STOP_LIMIT_S, self._reactor)
+        done = waiting.addErrback(lambda _: None)
+        return done.addCallback(lambda _: Deferred.fromCoroutine(self._member.stop()))
+
+    def drain(self) -> None:
+        """Leave every aircraft to the other nodes, and stay connected."""
+        self.on_drain()
+        for session in list(self._sessions):
+            session.drain()
+
+    def new_session(self, name: str, poller: Poller, limited: Limited) -> ClusterSession:
+        session = ClusterSession(self, name, poller, limited)
+        self._sessions.add(session)
+        return session
+
+    def forget(self, session: ClusterSession) -> None:
+        self._sessions.discard(session)
+
+    def new_handshake(self, side: Side, registry: AircraftRegistry) -> ClusterHandshake:
+        return ClusterHandshake(side, registry, self._poller, self._max_listeners)
+
+    def subject(self, aircraft: str) -> str:
+        return self._member.subject(word(aircraft))
+
+    def key(self, aircraft: str) -> str:
+        """Return the key of an aircraft's lease."""
+        return self._member.key("aircraft", aircraft)
+
+    def send(self, subject: str, fence: int, ground: int, body: bytes) -> None:
+        self._client.publish(subject, pack(self.id, fence, self._reactor.seconds(), ground, body))
+
+    def subscribe(self, subject: str, on_message: Callable[[Envelope], None]) -> int:
+        """Pass on messages that are neither malformed nor older than MAX_AGE_S."""
+
+        def receive(message: Message) -> None:
+            try:
+                envelope = unpack(message.payload)
+                if self._is_stale(envelope):
+                    self.stale += 1
+                else:
+                    on_message(envelope)
+            except MalformedError:
+                self._malformed += 1
+
+        return self._client.subscribe(subject, receive)
+
+    def unsubscribe(self, sid: int) -> None:
+        self._client.unsubscribe(sid)
+
+    def release(self, lease: Lease, data: dict[str, Any] | None) -> None:
+        """Release a lease; `data` stay readable for the next holder."""
+        done = Deferred.fromCoroutine(self.leases.release(lease, data))
+        self._releases.add(done)
+        done.addBoth(lambda _: self._releases.discard(done))
+
+    def metrics(self) -> list[Metric]:
+        def one(value: float) -> Samples:
+            return [({}, value)]
+
+        refused: Samples = [({"code": code}, count) for code, count in self.refused.items()]
+        counters: list[tuple[str, str, Samples]] = [
+            ("stale", "Messages of other nodes dropped for their age.", one(self.stale)),
+            ("fenced", "Messages of a former home or to another one.", one(self.fenced)),
+            ("malformed", "Malformed messages of other nodes.", one(self._malformed)),
+            ("dropped", "Messages to NATS that were dropped.", one(self._client.dropped)),
+            ("refused", "Changes of control that were not granted, by code.", refused),
+        ]
+        gauges: list[tuple[str, str, Samples]] = [
+            ("connected", "1 while NATS is connected.", one(int(self._client.is_connected))),
+            ("nodes", "Other nodes heard within two minutes.", one(len(self._ages))),
+            ("leases", "Aircraft whose home is this node.", one(len(self.leases))),
+            ("draining", "1 after a drain.", one(int(self._fleet.is_draining))),
+        ]
+        return [
+            *((f"up_proxy_cluster_{n}_total", "counter", text, v) for n, text, v in counters),
+            *((f"up_proxy_cluster_{n}", "gauge", text, v) for n, text, v in gauges),
+        ]
+
+    def _is_stale(self, envelope: Envelope) -> bool:
+        now_s = self._reactor.seconds()
+        return self._ages.age_s(envelope.node, envelope.sent_s, now_s) > MAX_AGE_S
+
+    def _on_heartbeat(self, message: Message) -> None:
+        try:
+            self._is_stale(unpack(message.payload))
+        except MalformedError:
+            self._malformed += 1
+
+    def _beat(self) -> None:
+        self._timer = self._reactor.callLater(HEARTBEAT_S, self._beat)
+        self._ages.forget(self._reactor.seconds())
+        self.send(self._member.subject("nodes"), 0, 0, b"")
+
+    def _on_connected(self, is_connected: bool) -> None:
+        if not is_connected:
+            _log.warn(
+                "NATS is lost: pairs of this node go on, new leases are refused",
+                code="cluster_lost",
+            )
+
+    def _on_ready(self) -> None:
+        _log.info("leases are available", code="cluster_ready", node=self.id)

@@ -1,0 +1,125 @@
+"""What the nodes of a cluster send each other about an aircraft, as bytes."""
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from up.protocols.proxy_lines import Access
+
+MAX_NUMBER = 2**53
+_HEADER = re.compile(rb"([!-~]{1,32}) ([0-9]{1,16}) ([0-9]{1,16}) ([0-9]{1,16})\n")
+
+
+class MalformedError(ValueError):
+    """A message of no node of this version."""
+
+
+class Envelope(NamedTuple):
+    """A message: its sender, the fencing number it goes by, its time, its ground, the rest."""
+
+    node: str
+    fence: int
+    sent_s: float
+    ground: int
+    body: bytes
+
+
+def pack(node: str, fence: int, sent_s: float, ground: int, body: bytes) -> bytes:
+    """Return a message; its time is kept in milliseconds."""
+    return b"%b %d %d %d\n%b" % (node.encode("ascii"), fence, int(sent_s * 1000), ground, body)
+
+
+def unpack(payload: bytes) -> Envelope:
+    """Return the parts of a message. Raises MalformedError."""
+    match = _HEADER.match(payload)
+    if match is None:
+        raise MalformedError("header")
+    node, fence, sent_ms, ground = match.groups()
+    body = payload[match.end() :]
+    return Envelope(node.decode("ascii"), int(fence), int(sent_ms) / 1000, int(ground), body)
+
+
+@dataclass(frozen=True, slots=True)
+class ListedGround:
+    """A ground of a guest. `age_s`: since its last byte."""
+
+    number: int
+    access: Access
+    token: str
+    packed: bool
+    attitude: bool
+    host: str
+    age_s: float
+
+    def encode(self) -> list[object]:
+        words = self.number, self.access.value, self.token, int(self.packed), int(self.attitude)
+        return [*words, self.host, round(self.age_s, 2)]
+
+
+@dataclass(frozen=True, slots=True)
+class GroundList:
+    """Guest to home: all its grounds of the aircraft."""
+
+    grounds: tuple[ListedGround, ...]
+
+    def encode(self) -> bytes:
+        return _encode({"grounds": [each.encode() for each in self.grounds]})
+
+
+@dataclass(frozen=True, slots=True)
+class Beacon:
+    """Home to guests: the aircraft's state; `known`: the admitted grounds of each guest."""
+
+    online: bool
+    owner: int | None
+    known: Mapping[str, Iterable[int]] = field(default_factory=dict)
+
+    def encode(self) -> bytes:
+        known = {node: sorted(numbers) for node, numbers in self.known.items()}
+        return _encode({"online": self.online, "owner": self.owner, "known": known})
+
+
+@dataclass(frozen=True, slots=True)
+class GroundLine:
+    """Home to one ground of a guest: a line of the proxy."""
+
+    node: str
+    line: bytes
+
+    def encode(self) -> bytes:
+        return _encode({"to": self.node, "line": self.line.decode("ascii")})
+
+
+def parse(body: bytes) -> GroundList | Beacon | GroundLine:
+    """Return what a control message states. Raises MalformedError."""
+    try:
+        fields: dict[str, Any] = json.loads(body)
+        if "grounds" in fields:
+            return GroundList(tuple(map(_ground, fields["grounds"])))
+        if "to" in fields:
+            return GroundLine(str(fields["to"]), str(fields["line"]).encode("ascii"))
+        owner = fields["owner"]
+        known = {str(node): list(map(_number, each)) for node, each in fields["known"].items()}
+        return Beacon(bool(fields["online"]), None if owner is None else _number(owner), known)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise MalformedError(str(error)) from None
+
+
+def _ground(words: list[Any]) -> ListedGround:
+    number, access, token, packed, attitude, host, age_s = words
+    return ListedGround(
+        _number(number), Access(access), str(token), packed == 1, attitude == 1,
+        str(host), min(max(float(age_s), 0.0), 1e6),
+    )  # fmt: skip
+
+
+def _number(value: Any) -> int:
+    if type(value) is not int or not 0 <= value < MAX_NUMBER:
+        raise ValueError(value)
+    return value
+
+
+def _encode(fields: dict[str, object]) -> bytes:
+    return json.dumps(fields, separators=(",", ":")).encode("ascii")

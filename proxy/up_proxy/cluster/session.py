@@ -1,0 +1,357 @@
+"""One aircraft at a node of a cluster: its home, or the guest of another node (docs/cluster.md)."""
+
+from typing import TYPE_CHECKING, Any
+
+from twisted.internet.defer import Deferred, DeferredLock
+
+from up.log import Limited, UpLogger
+from up.protocols.control_lease import State
+from up.protocols.proxy_lines import (
+    PREFIX,
+    TAKEN,
+    TOKEN,
+    Access,
+    ControlGranted,
+    ControlLost,
+    HelloError,
+)
+from up_cluster.jetstream import JetStreamError
+from up_cluster.lease import Lease, LeaseLostError, Record
+from up_cluster.nats_client import NatsUnavailableError
+from up_proxy.aircraft import AircraftSession, relay_to_all, without
+from up_proxy.cluster.guest_side import GuestSide
+from up_proxy.cluster.home_ground_side import HomeGroundSide
+from up_proxy.cluster.node_messages import Beacon, Envelope, GroundLine, GroundList, parse
+from up_proxy.cluster.remote_ground import RemoteGround
+from up_proxy.connection import Connection
+from up_proxy.handshake import new_token
+from up_proxy.poller import Poller
+
+if TYPE_CHECKING:
+    from up_proxy.cluster.node import ClusterNode
+
+REPEAT_S = 1.0
+"""Period of a guest's list and of a home's beacon."""
+LIST_LIMIT_S = 3.0
+"""The grounds of a guest that sends no list for this long count as gone."""
+_log = UpLogger.get_logger("proxy")
+
+
+class ClusterSession(AircraftSession):
+    """Relays as an `AircraftSession` while this node is the home, otherwise by `guests`.
+
+    `changes` orders the writes to the entry of the lease; its owner computes the data.
+    """
+
+    def __init__(self, node: "ClusterNode", name: str, poller: Poller, limited: Limited) -> None:
+        super().__init__(name, poller, limited)
+        self._node = node
+        self.guests = GuestSide(self, poller)
+        self.changes = DeferredLock()
+        self.lease: Lease | None = None
+        self._claims = 0
+        self._home_since_s = 0.0
+        self._remotes: dict[tuple[str, int], RemoteGround] = {}
+        self._listed_s: dict[str, float] = {}
+        self._repeated_s = poller.now_s
+        self._beaconed: tuple[bool, int | None] = (False, None)
+        self._subject = node.subject(name)
+        self._control_sid = node.subscribe(f"{self._subject}.control", self._on_control)
+        self._data_sid = node.subscribe(f"{self._subject}.down", self._on_down)
+
+    def _new_grounds(self) -> HomeGroundSide:
+        return HomeGroundSide(self, self._poller)
+
+    @property
+    def is_home(self) -> bool:
+        return self.lease is not None
+
+    def is_deserted(self, now_s: float) -> bool:
+        return super().is_deserted(now_s) and not self.guests.connections and not self._claims
+
+    def close(self) -> None:
+        self._node.forget(self)
+        for sid in (self._control_sid, self._data_sid):
+            self._node.unsubscribe(sid)
+        if self.lease is not None:
+            self._node.release(self.lease, None)
+            self.lease = None
+
+    # The lease.
+
+    async def claim(self, token: str | None) -> str:
+        """Make this node the home for an aircraft with this token; return its token from now on.
+
+        Raises HelloError if another connection has the aircraft, NatsUnavailableError,
+        JetStreamError.
+        """
+        self._claims += 1
+        try:
+            async with self.changes:
+                if self.lease is None:
+                    return await self._claim_from_others(token)
+                if self.air_lease.is_resumed_by(token):
+                    assert token is not None
+                    return token
+                if not self.air_lease.is_free(self._poller.tick()):
+                    raise _refusal(token)
+                token = new_token()
+                await self.write(air=token)
+                if (silent := self.air_lease.owner) is not None:
+                    silent.fail("replaced by another connection of this aircraft")
+                self.air_lease.reserve(token, self._poller.tick())
+                return token
+        finally:
+            self._claims -= 1
+
+    async def _claim_from_others(self, token: str | None) -> str:
+        fresh = new_token()
+
+        def decide(record: Record | None) -> dict[str, Any]:
+            data = {} if record is None else record.data
+            if data.get("air") is None:
+                return {"air": fresh, "control": data.get("control")}
+            if data["air"] != token:
+                raise _refusal(token)
+            return data
+
+        lease = await self._node.leases.acquire(self._node.key(self.name), decide, self._on_lease)
+        self.lease = lease
+        self._become_home()
+        return str(lease.data["air"])
+
+    async def write(self, **changed: str | None) -> None:
+        """Write the present state with a change. Raises LeaseLostError, NatsUnavailableError."""
+        lease = self.lease
+        if lease is None:
+            raise LeaseLostError(self.name)
+        await self._node.leases.update(lease, {**self._data(), **changed})
+
+    def _data(self) -> dict[str, Any]:
+        now_s = self._poller.tick()
+        control = self.grounds.lease
+        return {
+            "air": None if self.air_lease.is_free(now_s) else self.air_lease.token or "legacy",
+            "control": None if control.state(now_s) is State.FREE else control.token,
+        }
+
+    async def _write_changes(self) -> None:
+        async with self.changes:
+            if self.lease is not None and self._data() != self.lease.data:
+                await self.write()
+
+    def _on_lease(self, lease: Lease) -> None:
+        if lease is not self.lease:
+            return
+        if lease.is_lost:
+            self.lease = None
+            self._become_guest()
+        else:
+            self._send_beacon()
+
+    def _become_home(self) -> None:
+        assert self.lease is not None
+        now_s = self._home_since_s = self._poller.tick()
+        self._subscribe_data(f"{self._subject}.up", self._on_up)
+        data = self.lease.data
+        self.air_lease.reserve(str(data["air"]), now_s)
+        if data["control"]:
+            self.grounds.lease.reserve(data["control"], now_s)
+        for ground, access in self.guests.take_all():
+            self._admit(ground, access, ground.token)
+        self._send_beacon()
+
+    def _become_guest(self) -> None:
+        """Let another node have the aircraft; the grounds here become its guests."""
+        self._subscribe_data(f"{self._subject}.down", self._on_down)
+        air = self.air_lease.owner
+        self.air_lease.release()
+        if air is not None:
+            air.fail("another node has this aircraft")
+        owner = self.grounds.lease.owner
+        for ground in self.grounds.connections:
+            if not isinstance(ground, RemoteGround):
+                ground.resume()
+                access = Access.COMMAND if ground is owner else Access.LISTEN
+                self.guests.admit(ground, access)
+        self.grounds.connections = ()
+        self.grounds.lease.release()
+        self._remotes.clear()
+        self._listed_s.clear()
+        self._shown_online, self._shown_owner = False, None
+        self.send_list()
+
+    def _subscribe_data(self, subject: str, on_message: Any) -> None:
+        self._node.unsubscribe(self._data_sid)
+        self._data_sid = self._node.subscribe(subject, on_message)
+
+    def _admit(self, ground: Connection, access: Access, token: str) -> None:
+        """Admit a ground that knows its access, and send it the change."""
+        granted = self.grounds.admit(ground, access, token)
+        if access is not Access.COMMAND or not ground.speaks_hello:
+            return
+        if granted is Access.COMMAND:
+            ground.send(ControlGranted(ground.token).encode())
+        elif self.home_grounds.granting is not ground:
+            ground.send(ControlLost().encode())
+
+    @property
+    def home_grounds(self) -> HomeGroundSide:
+        assert isinstance(self.grounds, HomeGroundSide)
+        return self.grounds
+
+    # Between the nodes.
+
+    def on_lines(self, connection: Connection, lines: bytes) -> None:
+        super().on_lines(connection, lines)
+        # The guests of a new home list their grounds a moment later.
+        is_heard = self._remotes or self._poller.now_s - self._home_since_s < REPEAT_S
+        if is_heard and self.air_lease.owner is connection:
+            self._send(".down", 0, lines)
+
+    def send_up(self, ground: int, lines: bytes) -> None:
+        self._send(".up", ground, lines)
+
+    def send_list(self) -> None:
+        if self.lease is None:
+            self._send(".control", 0, self.guests.list().encode())
+
+    def refused(self, code: str) -> None:
+        self._node.refused[code] += 1
+
+    def announce(self, newcomer: Connection | None = None) -> None:
+        super().announce(newcomer)
+        if self._beaconed != (self._shown_online, self._shown_owner):
+            self._send_beacon()
+
+    def _send_beacon(self) -> None:
+        if self.lease is not None:
+            self._beaconed = self._shown_online, self._shown_owner
+            known: dict[str, list[int]] = {}
+            for node, number in self._remotes:
+                known.setdefault(node, []).append(number)
+            self._send(".control", 0, Beacon(*self._beaconed, known).encode())
+
+    def _send(self, kind: str, ground: int, body: bytes) -> None:
+        fence = self.guests.fence if self.lease is None else self.lease.fence
+        self._node.send(self._subject + kind, fence, ground, body)
+
+    def _on_down(self, message: Envelope) -> None:
+        if self.lease is not None or message.fence < self.guests.fence:
+            self._node.fenced += 1
+            return
+        lines = message.body
+        if PREFIX in lines:
+            lines = without(PREFIX, lines)
+        self.dropped_lines += relay_to_all(self.guests.connections.values(), lines)
+
+    def _on_up(self, message: Envelope) -> None:
+        remote = self._remotes.get((message.node, message.ground))
+        if self.lease is None or message.fence != self.lease.fence or remote is None:
+            self._node.fenced += 1
+            return
+        remote.last_rx_s = self._poller.now_s
+        if remote.failure is None and remote.paused_s is None:
+            self.grounds.on_lines(remote, message.body)
+        else:
+            self.rejected_lines += message.body.count(b"\n")
+
+    def _on_control(self, message: Envelope) -> None:
+        said = parse(message.body)
+        if isinstance(said, GroundList):
+            if self.lease is not None:
+                self._on_list(message.node, said, is_known=message.fence == self.lease.fence)
+        elif self.lease is not None:
+            if isinstance(said, Beacon) and message.fence > self.lease.fence > 0:
+                lease, self.lease = self.lease, None
+                self._node.release(lease, None)
+                self._become_guest()
+                self._on_control(message)
+        elif message.fence < self.guests.fence:
+            self._node.fenced += 1
+        elif isinstance(said, GroundLine):
+            if said.node == self._node.id:
+                self.guests.on_line(message.ground, said.line)
+        else:
+            is_new = message.fence > self.guests.fence
+            self.guests.on_beacon(message.node, message.fence, said, self._node.id)
+            if is_new and self.guests.connections:
+                self.send_list()
+
+    def _on_list(self, node: str, listed: GroundList, *, is_known: bool) -> None:
+        now_s = self._poller.now_s
+        self._listed_s[node] = now_s
+        present = {(node, each.number): each for each in listed.grounds}
+        for key, remote in list(self._remotes.items()):
+            if key[0] == node and key not in present:
+                self._end(key, remote)
+        is_new = False
+        for key, each in present.items():
+            known = self._remotes.get(key)
+            if known is not None:
+                known.last_rx_s = max(known.last_rx_s, now_s - each.age_s)
+                continue
+            is_new = True
+            remote = RemoteGround(node, each, now_s, self._line_sender(node, each.number))
+            self._remotes[key] = remote
+            self._admit(remote, each.access, each.token)
+        if is_new or not is_known:
+            self.announce()
+            self._send_beacon()
+
+    def _line_sender(self, node: str, number: int) -> Any:
+        return lambda line: self._send(".control", number, GroundLine(node, line).encode())
+
+    def _end(self, key: tuple[str, int], remote: RemoteGround) -> None:
+        del self._remotes[key]
+        self.grounds.on_end(remote, "its node does not list it")
+
+    def sweep(self) -> None:
+        now_s = self._poller.now_s
+        if self.lease is None:
+            self.guests.sweep()
+            if self.guests.connections and now_s - self._repeated_s >= REPEAT_S:
+                self._repeated_s = now_s
+                self.send_list()
+            return
+        for node, listed_s in list(self._listed_s.items()):
+            if now_s - listed_s > LIST_LIMIT_S:
+                del self._listed_s[node]
+                for key, remote in list(self._remotes.items()):
+                    if key[0] == node:
+                        self._end(key, remote)
+        super().sweep()
+        if self._listed_s and now_s - self._repeated_s >= REPEAT_S:
+            self._repeated_s = now_s
+            self._send_beacon()
+        if not self.changes.locked and self._data() != self.lease.data:
+            Deferred.fromCoroutine(self._write_changes()).addErrback(_ignore_unavailable)
+
+    def kick(self) -> None:
+        """End the connections of the aircraft, and free its name and its control."""
+        for ground in self.grounds.connections:
+            ground.fail("disconnected by up-fleet")
+        air = self.air_lease.owner
+        self.air_lease.release()
+        self.grounds.lease.release()
+        if air is not None:
+            air.fail("disconnected by up-fleet")
+
+    def drain(self) -> None:
+        """Leave the record to any other node."""
+        if self.lease is not None:
+            data = {**self.lease.data, "air": None}
+            self._node.release(self.lease, data)
+            self.lease = None
+
+
+def _refusal(token: str | None) -> HelloError:
+    if token is None:
+        return HelloError(TAKEN, "an aircraft of this name is connected")
+    return HelloError(TOKEN, "this token is not that of the connected aircraft")
+
+
+def _ignore_unavailable(failure: Any) -> None:
+    """The next sweep tries again."""
+    if not failure.check(NatsUnavailableError, JetStreamError, LeaseLostError):
+        _log.failure("a lease failed on a bug", failure, code="proxy_bug")

@@ -1,0 +1,279 @@
+"""A runner as a member of a pool: it carries requests out here or lets another runner do it."""
+
+from __future__ import annotations
+
+import secrets
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from twisted.internet.task import deferLater
+
+from up.log import UpLogger
+from up.system.clock import Timer, cancel
+from up.system.figures import Figure
+from up_cluster.membership import Membership, run
+from up_cluster.nats_client import NatsUnavailableError
+from up_cluster.object_store import ObjectStore
+from up_runner.config import RunnerConfig
+from up_runner.instance_host import InstanceHost
+from up_runner.instances import Instances
+from up_runner.pool.directory import PoolDirectory
+from up_runner.pool.fleet_actions import FleetActions
+from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
+from up_runner.pool.messages import (
+    ELSEWHERE,
+    NO_ANSWER,
+    decode_request,
+    decode_response,
+    encode_request,
+    encode_response,
+    failed,
+)
+from up_runner.pool.orphans import Orphans
+from up_runner.pool.placement import HEARTBEAT_S, RunnerInfo, ranking
+from up_runner.request import MalformedRequest, Request
+from up_runner.response import Response
+
+STORE = "up-state"
+RENEWALS = 5
+SWEEP_S = 0.25
+MAX_HOPS, HOP_S = 4, 0.3
+"""How often a request follows an instance that moves, and the pause before."""
+ANSWER_S = 2.0
+"""For the answer of another runner, beyond the time limit of a start."""
+ID = ".pool-id"
+CLUSTER, DRAINING, INSTANCE_LIMIT = "cluster", "draining", "instance_limit"
+_log = UpLogger.get_logger("runner.pool")
+
+
+class Pool:
+    """Decides where a request is carried out. The constructor raises ClusterError, TLSError."""
+
+    def __init__(
+        self,
+        reactor: Any,
+        config: RunnerConfig,
+        folder: Path,
+        instances: Instances,
+        host: InstanceHost,
+    ) -> None:
+        self._reactor = reactor
+        self._config = config
+        self._instances = instances
+        self._counts: Counter[str] = Counter()
+        self._member = Membership(
+            reactor,
+            config.pool,
+            folder,
+            program="up-runner",
+            member_id=_own_id(host.run_folder.path / ID),
+            ttl_s=config.pool.lease_s,
+            renewals=RENEWALS,
+        )
+        self.id = self._member.id
+        store = ObjectStore(self._member.client, STORE)
+        self._member.makers.append(store.create)
+        self._member.on_ready = self._on_ready
+        self._member.on_connected = self._on_connected
+        self._directory = PoolDirectory(reactor, self._member, self._counts)
+        self.hosted = HostedInstances(
+            reactor, config, self._member, store, instances, host, self._counts
+        )
+        self._orphans = Orphans(self._directory, self.hosted, self._counts, self._start_orphan)
+        self._fleet = FleetActions(instances, self.info, self._beat)
+        self._member.actions.update(
+            start=self._on_start, request=self._on_request, **self._fleet.actions
+        )
+        self._is_stopped = False
+        self._sweep_timer: Timer | None = None
+        self._beat_timer: Timer | None = None
+
+    def start(self) -> None:
+        self._directory.start()
+        self._member.start()
+        self._beat()
+        self._sweep()
+
+    async def stop(self) -> None:
+        """Give up what has ended, and disconnect; instances that run on keep their leases."""
+        self._is_stopped = True
+        cancel(self._sweep_timer, self._beat_timer)
+        self._directory.stop()
+        await self.hosted.stop()
+        await self._member.stop()
+
+    async def handle(self, request: Request) -> Response:
+        """Carry a phone's request out on the host of the aircraft, or on a new host for it."""
+        name = request.aircraft
+        for hop in range(MAX_HOPS):
+            if hop:
+                await deferLater(self._reactor, HOP_S)
+                await self._directory.refresh(name)
+            holder = self._directory.holders.get(name)
+            if name in self.hosted:
+                response = await self._request_here(request)
+            elif not self._directory.is_current:
+                return failed(name, CLUSTER, "the cluster does not answer")
+            elif holder is not None and holder != self.id:
+                response = await self._ask_holder(holder, request)
+            elif request.action == "status":
+                return Response(name)
+            else:
+                response = await self._place(request)
+            if response.error is None or response.error.code != ELSEWHERE:
+                break
+        return response
+
+    def info(self) -> RunnerInfo:
+        """Return what the heartbeat contains."""
+        is_able = self._directory.is_current and not (self._fleet.is_draining or self._is_stopped)
+        free = self._instances.free if is_able else 0
+        labels = frozenset(self._config.pool.labels)
+        return RunnerInfo(self.id, self._config.pool.address, free, labels)
+
+    def figures(self) -> Iterator[Figure]:
+        connected = int(self._member.client.is_connected)
+        yield Figure("up_runner_pool_connected", "1 while NATS is connected.", connected)
+        others = len(self._directory.others())
+        yield Figure("up_runner_pool_runners", "Other runners heard within 3 s.", others)
+        yield Figure("up_runner_pool_leases", "Instances of this runner.", len(self.hosted))
+        text = "Wanted instances that no runner has."
+        yield Figure("up_runner_pool_orphans", text, len(self._orphans))
+        for event in ("taken_over", "lease_lost", "state_not_saved", "malformed"):
+            text = "Orphans taken over, lost leases, unsaved states, malformed messages."
+            count, labels = self._counts[event], {"event": event}
+            yield Figure("up_runner_pool_events", text, count, labels, "counter")
+
+    def _ranking(self, request: Request) -> list[str]:
+        runners = [self.info(), *self._directory.others()]
+        return ranking(request.aircraft, request.labels, runners)
+
+    async def _place(self, request: Request) -> Response:
+        """Let the first runner of the ranking that is able start the instance."""
+        needed = ", ".join(request.labels)
+        text = f"no runner{needed and f' with the labels {needed}'} has a free place"
+        response = failed(request.aircraft, "no_runner", text)
+        for runner in self._ranking(request):
+            if runner == self.id:
+                response = await self._start_here(request)
+            else:
+                response = await self._ask(runner, "start", request)
+            if response.error is None or response.error.code not in (
+                INSTANCE_LIMIT,
+                DRAINING,
+                NO_ANSWER,
+            ):
+                break
+        return response
+
+    async def _ask_holder(self, holder: str, request: Request) -> Response:
+        """Let the runner of an instance answer; one that is silent is not waited for."""
+        if all(each.id != holder for each in self._directory.others()):
+            text = f"the runner {holder} of this aircraft is silent"
+            return failed(request.aircraft, NO_ANSWER, text)
+        return await self._ask(holder, "request", request)
+
+    async def _ask(self, runner: str, action: str, request: Request) -> Response:
+        limit_s = ANSWER_S
+        if request.action != "status":
+            limit_s += self._config.start_limit_s
+        try:
+            message = {"action": action, **encode_request(request)}
+            answer = await self._member.ask(runner, message, limit_s)
+        except NatsUnavailableError as error:
+            text = f"the runner {runner} of this aircraft does not answer ({error.code})"
+            return failed(request.aircraft, NO_ANSWER, text)
+        return decode_response(request.aircraft, answer)
+
+    async def _request_here(self, request: Request) -> Response:
+        """Answer for an instance whose lease is held here."""
+        name = request.aircraft
+        if request.action == "status":
+            return self._named(self._instances.status(name))
+        async with self.hosted.lock(name):
+            if name in self.hosted:
+                return self._named(await self._instances.spawn(request))
+        return failed(name, ELSEWHERE, "the instance has ended here")
+
+    async def _start_here(self, request: Request, *, is_orphan: bool = False) -> Response:
+        """Start an instance here under a new lease, unless another runner has one."""
+        name = request.aircraft
+        async with self.hosted.lock(name):
+            if name in self.hosted:
+                return self._named(await self._instances.spawn(request))
+            if self._fleet.is_draining or self._is_stopped:
+                return failed(name, DRAINING, "this runner drains")
+            if not self._instances.free:
+                return failed(name, INSTANCE_LIMIT, "no free place on this runner")
+            try:
+                hosted = await self.hosted.acquire(request, is_orphan=is_orphan)
+            except TakenError:
+                return failed(name, ELSEWHERE, "another runner has this aircraft")
+            except UNAVAILABLE:
+                return failed(name, CLUSTER, "no lease: the cluster does not answer")
+            try:
+                await self.hosted.prepare(hosted)
+                response = self._named(await self._instances.spawn(request))
+            except UNAVAILABLE:
+                hosted.is_orphan = True
+                response = failed(name, CLUSTER, "the cluster does not answer")
+            except OSError as error:
+                response = failed(name, "cannot_spawn", f"Raspilot cannot be started: {error}")
+            hosted.is_orphan &= not response.running
+            if response.error is not None and self._instances.get(name) is None:
+                self.hosted.end(hosted, response.error.code)
+            return response
+
+    async def _start_orphan(self, request: Request) -> Response:
+        return await self._start_here(request, is_orphan=True)
+
+    def _named(self, response: Response) -> Response:
+        return replace(response, host=self._config.pool.address)
+
+    def _sweep(self) -> None:
+        self._sweep_timer = self._reactor.callLater(SWEEP_S, self._sweep)
+        self.hosted.sweep()
+        self._orphans.sweep(self._reactor.seconds(), self.id, self._ranking)
+
+    def _beat(self) -> None:
+        cancel(self._beat_timer)
+        self._beat_timer = self._reactor.callLater(HEARTBEAT_S, self._beat)
+        self._directory.beat(self.info())
+
+    def _on_connected(self, is_connected: bool) -> None:
+        if not is_connected:
+            text = "NATS is lost: without it the instances end at their deadlines"
+            _log.warn(text, code="pool_lost")
+
+    def _on_ready(self) -> None:
+        _log.info("the pool is available", code="pool_ready", node=self.id)
+        self._directory.follow()
+        run(self.hosted.save_old_flights(), "the flights of earlier instances")
+
+    async def _on_start(self, message: dict[str, Any]) -> dict[str, Any]:
+        return await self._on_peer(message, self._start_here)
+
+    async def _on_request(self, message: dict[str, Any]) -> dict[str, Any]:
+        return await self._on_peer(message, self._request_here)
+
+    async def _on_peer(self, message: dict[str, Any], carry_out: Any) -> dict[str, Any]:
+        try:
+            request = decode_request(message)
+        except MalformedRequest:
+            self._counts["malformed"] += 1
+            return {"code": "malformed_request"}
+        return encode_response(await carry_out(request))
+
+
+def _own_id(path: Path) -> str:
+    """Return the id of the runner of this run folder, which only one process has at a time."""
+    try:
+        return path.read_text("ascii").strip()
+    except OSError:
+        own = secrets.token_hex(6)
+        path.write_text(f"{own}\n", encoding="ascii")
+        path.chmod(0o600)
+        return own

@@ -1,0 +1,163 @@
+"""What an instance leaves behind, in the object store: its learned files, its flight logs."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from up.config.atomic_writer import write_atomically
+from up.log import UpLogger
+from up_cluster.jetstream import JetStreamError, WrongRevisionError
+from up_cluster.nats_client import NatsUnavailableError
+from up_cluster.object_store import ObjectDamagedError, ObjectStore
+from up_runner.instance_config import FOLDER, PROFILE_NOTE
+from up_runner.instance_host import InstanceHost
+
+MAX_STATE_BYTES = 2**20
+STATE_HOME = "state"
+"""XDG_STATE_HOME of an instance, in its folder: the black box writes below it."""
+FLIGHTS = Path(STATE_HOME, "raspilot", "flights")
+_log = UpLogger.get_logger("runner.pool")
+
+
+class StateFiles:
+    """The files of one aircraft: from the store before a start, into it afterwards.
+
+    `prefix` begins the names of its objects. `restore` and `save` raise NatsUnavailableError and
+    JetStreamError; `restore` OSError.
+    """
+
+    def __init__(
+        self, store: ObjectStore, host: InstanceHost, name: str, prefix: str, learned: Iterable[str]
+    ) -> None:
+        self._store = store
+        self._host = host
+        self._folder = host.folder / name
+        self._object = f"{prefix}/state"
+        self._prefix = prefix
+        self._names = {each for name in learned for each in (name, f"{name}.good")}
+        self._revision = 0
+        self._digests: set[str] = set()
+        """Of what this runner wrote, or tried to."""
+        self._stamp: object = None
+
+    async def restore(self) -> None:
+        """Write the files of the store into the folder, in place of those that are there.
+
+        Those of this host remain if the store has none, and go if the store's are damaged.
+        """
+        found: dict[str, Any] = {}
+        try:
+            info = await self._store.info(self._object)
+            if info is None:
+                return
+            self._revision = info.revision
+            if info.size > MAX_STATE_BYTES:
+                raise ObjectDamagedError(self._object, "too_large", info.revision)
+            found = _files_in(await self._store.get_bytes(info), self._object, info.revision)
+        except ObjectDamagedError as error:
+            self._revision = error.revision
+            text = "{name} is not restored: {reason}"
+            _log.error(text, code="state_damaged", name=self._object, reason=error.code)
+        await self._host.on_disk(self._replace, found)
+
+    async def follow(self) -> None:
+        """Go on from the revision in the store, for an instance that runs already."""
+        info = await self._store.info(self._object)
+        self._revision = 0 if info is None else info.revision
+
+    async def save(self) -> None:
+        """Write the learned files if they have changed and no other host has written them."""
+        stamp, data = await self._host.on_disk(self._collect)
+        if stamp == self._stamp or data is None:
+            return
+        digest = hashlib.sha256(data).hexdigest()
+        try:
+            revision = await self._put(data, digest)
+        except WrongRevisionError:
+            # An earlier write without an answer, or that of another host.
+            stored = await self._store.info(self._object)
+            if stored is None or await self._digest_of(stored) not in self._digests:
+                raise
+            self._revision = stored.revision
+            revision = await self._put(data, digest)
+        self._revision, self._digests, self._stamp = revision, {digest}, stamp
+        text = "{name} is saved: {files} files"
+        _log.info(text, code="state_saved", name=self._object, files=len(stamp))
+
+    async def save_flights(self) -> None:
+        """Move the flight logs into the store; those that cannot be saved stay."""
+        folder = self._folder / FLIGHTS
+        for path in await self._host.in_thread(lambda: sorted(folder.glob("*.mcap"))):
+            name = f"{self._prefix}/flights/{path.name}"
+            try:
+                with path.open("rb") as file:
+                    await self._store.put(name, lambda size: self._host.in_thread(file.read, size))
+                path.unlink()
+            except (NatsUnavailableError, JetStreamError, OSError) as error:
+                text = "{name} is not saved, and stays on this host: {reason}"
+                _log.error(text, code="flight_not_saved", name=name, reason=str(error))
+                return
+            _log.info("{name} is saved", code="flight_saved", name=name)
+        await self._host.in_thread(self._remove_empty)
+
+    async def _put(self, data: bytes, digest: str) -> int:
+        self._digests.add(digest)
+        return (await self._store.put_bytes(self._object, data, self._revision)).revision
+
+    async def _digest_of(self, info: Any) -> str:
+        try:
+            return hashlib.sha256(await self._store.get_bytes(info)).hexdigest()
+        except ObjectDamagedError:
+            return ""
+
+    def _collect(self) -> tuple[list[tuple[str, int, int]], bytes | None]:
+        """Return what changes with the files, and the document; None if it is too large."""
+        config = self._folder / FOLDER
+        stamp, files = [], {}
+        for name in sorted(self._names):
+            with suppress(FileNotFoundError, UnicodeDecodeError):
+                status = (config / name).stat()
+                stamp.append((name, status.st_mtime_ns, status.st_size))
+                files[name] = (config / name).read_text(encoding="utf-8")
+        try:
+            profile = (self._folder / PROFILE_NOTE).read_text(encoding="utf-8")
+        except FileNotFoundError:
+            profile = "\n"
+        data = json.dumps({"profile": profile, "files": files}, indent=1).encode()
+        if len(data) > MAX_STATE_BYTES:
+            text = "{name} is not saved: more than {size} bytes"
+            _log.error(text, code="state_not_saved", name=self._object, size=MAX_STATE_BYTES)
+            return stamp, None
+        return stamp, data
+
+    def _replace(self, found: dict[str, Any]) -> None:
+        config = self._folder / FOLDER
+        config.mkdir(mode=0o700, parents=True, exist_ok=True)
+        files = found.get("files", {})
+        for name in self._names:
+            if name in files:
+                write_atomically(config / name, files[name].encode())
+            else:
+                (config / name).unlink(missing_ok=True)
+        if found:
+            write_atomically(self._folder / PROFILE_NOTE, found["profile"].encode())
+
+    def _remove_empty(self) -> None:
+        for folder in (FLIGHTS, *list(FLIGHTS.parents)[:-1]):
+            with suppress(OSError):
+                (self._folder / folder).rmdir()
+
+
+def _files_in(data: bytes, name: str, revision: int) -> dict[str, Any]:
+    """Return a stored document. Raises ObjectDamagedError."""
+    try:
+        found = json.loads(data)
+        files = {str(key): str(text) for key, text in found["files"].items()}
+        return {"profile": str(found["profile"]), "files": files}
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise ObjectDamagedError(name, "content", revision) from None

@@ -1,0 +1,154 @@
+"""`up-fleet` with real proxies and runners on one NATS server, for two tenants."""
+
+import json
+
+import pytest
+
+from tests.cluster.fleet.up_fleet import UpFleet
+from tests.proxy.cluster.nodes import Nodes, refusal
+from tests.runner.pool.runner_pool import RunnerPool
+from tests.runner.runners import is_alive, same_instance
+from tests.support.nats_servers import NatsServers
+from tests.support.waiting import until
+from up_cluster.fleet.main import main
+
+TENANT = "club"
+ACCOUNTS = """
+accounts {
+  A { jetstream: enabled, users: [ { user: a, password: one } ] }
+  B { jetstream: enabled, users: [ { user: b, password: two } ] }
+}
+"""
+
+
+def credentials(folder, text):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "nats.txt").write_text(text)
+    (folder / "nats.txt").chmod(0o600)
+    return str(folder / "nats.txt")
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    with NatsServers(tmp_path_factory.mktemp("nats"), 1, ACCOUNTS) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def a(tmp_path_factory):
+    return credentials(tmp_path_factory.mktemp("a"), "a:one")
+
+
+@pytest.fixture
+def fleet(server, tmp_path, a):
+    return UpFleet(
+        tmp_path / "fleet", server.urls, f"tenant: {TENANT}\nreplicas: 1\ncredentials: {a}\n"
+    )
+
+
+def test_runners_are_listed_drained_and_their_instances_stopped(server, short_path, fleet, a):
+    with RunnerPool(server, short_path, 2, pool={"credentials": a, "tenant": TENANT}) as pool:
+        first = pool.runners[0].ask(aircraft="glider-1", labels=["any"])
+        host = pool.host_of(first)
+        other = pool.others(host)[0]
+        row = fleet.member("runner", first["host"])
+        assert [each["pid"] for each in row["aircraft"]] == [first["pid"]]
+        assert row["aircraft"][0]["rss_bytes"] > 1e6 and row["aircraft"][0]["cpu_s"] > 0
+        place = fleet.ask("where", "glider-1")["places"][0]
+        assert (place["host"], place["ports"]) == (first["host"], first["ports"])
+
+        assert fleet.ask("drain", row["id"])["left"] == ["glider-1"]
+        assert not is_alive(first["pid"]) and host.instances() == []
+        second = pool.running_at(other, "glider-1")
+        assert second["host"] != first["host"]
+        # Nothing starts here again; requests are still answered.
+        assert same_instance(host.ask(aircraft="glider-1"), second)
+        refused = host.ask(aircraft="glider-2", labels=[pool.label_of(host)])
+        assert (refused["code"], host.instances()) == ("no_runner", [])
+
+        assert fleet.ask("kick", "glider-1", "--instance")["done"] == "stopped"
+        until(lambda: not other.status("glider-1")["running"], "its end")
+        assert fleet.refused("kick", "glider-1", "--instance") == (1, ["unknown_aircraft"])
+
+        # One that no host can start stays wanted, until it is given up.
+        alone = other.ask(aircraft="alone", labels=[pool.label_of(other)])
+        pool.kill_host(pool.host_of(alone))
+        until(lambda: pool.figure(host, "orphans") == 1, "the orphan")
+        assert "alone: wanted" in fleet.run("list").stdout
+        assert fleet.ask("kick", "alone", "--instance")["done"] == "not_wanted"
+        until(lambda: pool.figure(host, "orphans") == 0, "it is forgotten")
+
+
+def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, a):
+    more = f"  tenant: {TENANT}\n  replicas: 1\n  credentials: {a}\n"
+    with Nodes(server, tmp_path, 2, more) as nodes:
+        aircraft, ground, _air_token, _ = nodes.pair(0, 1, "glider-1")
+        with aircraft, ground:
+            place = fleet.ask("where", "glider-1")["places"][0]
+            assert (place["kind"], place["state"]) == ("proxy", "online")
+            hello = "UP1 aircraft=glider-1\n"
+            assert refusal(nodes.programs[1].airborne_port, hello) == "taken"
+            assert fleet.ask("kick", "glider-1")["id"] == place["id"]
+            aircraft.file.read()
+        # Its name is free for every aircraft, without the token.
+        again, _ = nodes.aircraft(0, "glider-1")
+        with again:
+            assert fleet.ask("drain", place["id"])["left"] == ["glider-1"]
+            again.file.read()
+        new, _ = nodes.aircraft(1, "glider-1")
+        with new:
+            assert nodes.programs[0].process.poll() is None
+            with pytest.raises(ConnectionRefusedError):
+                nodes.aircraft(0, "another")
+            drained = next(r for r in fleet.ask("list")["members"] if r["id"] == place["id"])
+            assert (drained["is_draining"], drained["aircraft"]) == (True, [])
+
+
+def test_another_tenant_sees_and_changes_nothing(server, tmp_path, fleet, a):
+    more = f"  tenant: {TENANT}\n  replicas: 1\n  credentials: {a}\n"
+    b = credentials(tmp_path / "b", "b:two")
+    of_b = UpFleet(
+        tmp_path / "fleet-b", server.urls, f"tenant: {TENANT}\nreplicas: 1\ncredentials: {b}\n"
+    )
+    more_b = f"  tenant: {TENANT}\n  replicas: 1\n  credentials: {b}\n"
+    (tmp_path / "na").mkdir()
+    (tmp_path / "nb").mkdir()
+    with (
+        Nodes(server, tmp_path / "na", 1, more) as nodes,
+        Nodes(server, tmp_path / "nb", 1, more_b),
+    ):
+        aircraft, _ = nodes.aircraft(0, "glider-1")
+        with aircraft:
+            id_a = fleet.ask("where", "glider-1")["places"][0]["id"]
+            listed = of_b.ask("list")
+            assert id_a not in {each["id"] for each in listed["members"]}
+            assert (listed["lost"], listed["orphans"]) == ([], [])
+            assert of_b.refused("kick", "glider-1") == (1, ["unknown_aircraft"])
+            assert of_b.refused("drain", id_a) == (1, ["no_answer"])
+            place = fleet.ask("where", "glider-1")["places"][0]
+            assert (place["id"], place["state"]) == (id_a, "online")
+
+
+@pytest.mark.parametrize("words", ["lost", "drain glider-1", "where ../x", "kick", "list --wait 0"])
+def test_wrong_use(words, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(words.split())
+    assert (ended.value.code, capsys.readouterr().out) == (2, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("", "no_servers"),
+        ("servers: nats://a:0\n", "inconsistent"),
+        ("servers: a\ntenant: a.b\n", "inconsistent"),
+        ("servers: a\ncredentials: none.txt\n", "no_file"),
+        ("servers: a\ntls: none\n", "tls_no_file"),
+    ],
+)
+def test_a_configuration_that_cannot_work(tmp_path, text, code, capsys, monkeypatch):
+    monkeypatch.setenv("UP_LOG_FORMAT", "json")
+    (tmp_path / "fleet.yml").write_text(text)
+    assert main(["--config", str(tmp_path), "list"]) == 2
+    lines = [json.loads(line) for line in capsys.readouterr().err.splitlines()]
+    assert [line["fields"]["code"] for line in lines] == [code]

@@ -1,0 +1,57 @@
+"""The NATS client's bounded buffer and its view of a silent server, on a virtual clock."""
+
+from twisted.internet.task import Clock
+
+from tests.support.transport import Transport
+from up_cluster import nats_client, nats_protocol
+from up_cluster.config import Server
+
+INFO = b'INFO {"server_name":"s0"}\r\n'
+
+
+def linked():
+    clock = Clock()
+    seen = []
+    client = nats_client.NatsClient(
+        clock, [Server("127.0.0.1", 4222)], name="test", on_connected=seen.append
+    )
+    link = client._build()
+    transport = Transport("127.0.0.1")
+    link.makeConnection(transport)
+    link.dataReceived(INFO + nats_protocol.PONG)
+    assert seen == [True]
+    transport.clear()
+    return clock, client, link, transport
+
+
+def test_the_oldest_data_behind_a_slow_server_are_dropped():
+    _, client, link, transport = linked()
+    link.pauseProducing()
+    body = b"x" * 1000
+    count = nats_client.MAX_WAITING_BYTES // 1000 + 10
+    for number in range(count):
+        client.publish(f"data.{number}", body)
+    client.subscribe("control", print)
+    assert transport.value() == b"SUB control 1\r\n"
+    assert 10 < client.dropped < 100
+    link.resumeProducing()
+    subjects = [line.split()[1] for line in transport.value().split(b"\r\n") if line[:3] == b"PUB"]
+    assert subjects == [b"data.%d" % n for n in range(client.dropped, count)]
+
+
+def test_a_silent_server_is_left():
+    clock, _, link, transport = linked()
+    for _ in range(4):
+        clock.advance(nats_client.PING_S)
+        link.dataReceived(nats_protocol.PONG)
+    assert transport.value().count(nats_protocol.PING) == 4
+    assert not transport.disconnecting
+    clock.pump([nats_client.PING_S] * 5)
+    assert transport.disconnected or transport.disconnecting
+    assert link._failed[0] == "silent"
+
+
+def test_nothing_waits_for_a_connection():
+    client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 4222)], name="test")
+    client.publish("data", b"old")
+    assert client.dropped == 1

@@ -1,0 +1,154 @@
+"""Three proxies as one cluster, each with its own NATS server first in its list."""
+
+import select
+import socket
+from collections import deque
+from contextlib import ExitStack
+
+from tests.proxy.program import Client, Program, accepted
+from tests.support.scrape import scrape
+from tests.support.waiting import DEADLINE_S, until
+from up_cluster import nats_protocol as nats
+
+READY_S = 60.0
+
+
+class Nodes:
+    """The running proxies: `aircraft` and `ground` connect to one of them."""
+
+    def __init__(self, servers, folder, count=3, more="", prefixes=None):
+        self.servers = servers
+        self.folder = folder
+        self.more = more
+        self.prefixes = prefixes or [()] * count
+        self.programs = [self._program(number) for number in range(count)]
+        self._stack = ExitStack()
+
+    def _program(self, number):
+        urls = self.servers.urls.split(",")
+        urls = ",".join([*urls[number:], *urls[:number]])
+        text = f"cluster:\n  servers: {urls}\n{self.more}"
+        prefix = self.prefixes[number]
+        return Program(self.folder / f"proxy{number}", text, prefix=prefix)
+
+    def __enter__(self):
+        for program in self.programs:
+            self._stack.enter_context(program)
+        until(lambda: all(map(self.is_ready, self.programs)), "the cluster", READY_S)
+        return self
+
+    def __exit__(self, *_):
+        self._stack.close()
+
+    @staticmethod
+    def is_ready(program):
+        return "cluster_ready" in program.codes()
+
+    def restart(self, number):
+        """Start a proxy again, at new ports."""
+        program = self.programs[number] = self._program(number)
+        self._stack.enter_context(program)
+        until(lambda: self.is_ready(program), "the node", READY_S)
+
+    def aircraft(self, node, name, token=""):
+        words = f" token={token}" * bool(token)
+        return accepted(self.programs[node].airborne_port, f"UP1 aircraft={name} packed=1{words}\n")
+
+    def ground(self, node, name, access="command", token=""):
+        words = f" token={token}" * bool(token)
+        hello = f"UP1 aircraft={name} seat={access} packed=1{words}\n"
+        return accepted(self.programs[node].ground_port, hello)
+
+    def pair(self, air_node, ground_node, name):
+        """Return an aircraft, the ground in control of it, and both tokens."""
+        aircraft, air_token = self.aircraft(air_node, name)
+        ground, token = self.ground(ground_node, name)
+        ground.expect("seat command")
+        return aircraft, ground, air_token, token
+
+    def figure(self, node, name):
+        return scrape(self.programs[node].metrics_port)[(f"up_proxy_cluster_{name}",)]
+
+    def control_refused(self, node):
+        """Return how many changes of control were refused for want of the cluster."""
+        page = scrape(self.programs[node].metrics_port)
+        return page.get(("up_proxy_cluster_refused_total", "cluster"), 0)
+
+
+def relayed(aircraft, ground, mark):
+    """Check that a line of each reaches the other."""
+    aircraft.say(f'{{"down": "{mark}"}}\n')
+    ground.expect(f'"down": "{mark}"')
+    ground.say(f'{{"up": "{mark}"}}\n')
+    aircraft.expect(f'"up": "{mark}"')
+
+
+def refusal(port, hello):
+    with Client(port, hello) as client:
+        line = client.line()
+        assert line.startswith("UP1 error code="), line
+        return line.split("code=")[1].split(" ")[0]
+
+
+def heard_until(client, mark):
+    """Return the lines up to the one that contains `mark`."""
+    lines = ""
+    while mark not in lines:
+        line = client.line()
+        assert line, f"closed before {mark!r} came"
+        lines += line
+    return lines
+
+
+def is_closed_after(client, line):
+    """Return whether the proxy has closed the connection; what it sent is discarded."""
+    try:
+        client.say(line)
+        readable, _, _ = select.select([client.socket], [], [], 0.1)
+        return bool(readable) and client.socket.recv(65536) == b""
+    except ConnectionError:
+        return True
+
+
+class RawNats:
+    """A connection to a NATS server, for messages that a proxy does not send."""
+
+    def __init__(self, port):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S)
+        self.file = self.socket.makefile("rb")
+        self.messages = deque()
+
+    def __enter__(self):
+        assert self.file.readline().startswith(b"INFO ")
+        self.socket.sendall(nats.connect({"verbose": False}))
+        return self
+
+    def __exit__(self, *_):
+        self.file.close()
+        self.socket.close()
+
+    def publish(self, subject, payload):
+        """Publish, and wait until the server has taken it."""
+        self.socket.sendall(nats.publish(subject, payload) + nats.PING)
+        while self._event() is not nats.Pong:
+            pass
+
+    def subscribe(self, subject):
+        self.socket.sendall(nats.subscribe(subject, 1))
+
+    def message(self):
+        """Return the payload of the next message."""
+        while not self.messages:
+            self._event()
+        return self.messages.popleft().payload
+
+    def _event(self):
+        """Read one event, keep a message, and return the kind of another one."""
+        parser = nats.NatsParser()
+        while True:
+            for event in parser.feed(self.file.readline()):
+                if isinstance(event, nats.Message):
+                    self.messages.append(event)
+                elif isinstance(event, nats.Ping):
+                    self.socket.sendall(nats.PONG)
+                return type(event)

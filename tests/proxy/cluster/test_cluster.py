@@ -1,0 +1,159 @@
+"""Three proxies and three NATS servers, as real processes."""
+
+import signal
+import time
+
+import pytest
+
+from tests.proxy.cluster.nodes import (
+    Nodes,
+    RawNats,
+    heard_until,
+    is_closed_after,
+    refusal,
+    relayed,
+)
+from tests.support.nats_servers import NatsServers
+from tests.support.waiting import until
+from up.protocols.proxy_lines import Access
+from up_proxy.cluster.node_messages import Beacon, GroundList, ListedGround, pack, unpack
+
+
+@pytest.fixture(scope="module")
+def nodes(tmp_path_factory):
+    with (
+        NatsServers(tmp_path_factory.mktemp("nats")) as servers,
+        Nodes(servers, tmp_path_factory.mktemp("proxies")) as running,
+    ):
+        yield running
+
+
+def test_a_pair_on_two_nodes_and_a_second_aircraft_of_the_name(nodes):
+    aircraft, ground, _, _ = nodes.pair(0, 1, "a.b-1")
+    with aircraft, ground:
+        relayed(aircraft, ground, "first")
+        port = nodes.programs[2].airborne_port
+        assert refusal(port, "UP1 aircraft=a.b-1\n") == "taken"
+        assert refusal(port, f"UP1 aircraft=a.b-1 token={'0' * 32}\n") == "token"
+        listener, _ = nodes.ground(2, "a.b-1")
+        with listener:
+            listener.expect("seat holder=1")
+            listener.say('{"up": "of a listener"}\n')
+            ground.say("UP1 seat give to=2\n")
+            listener.expect("seat command")
+            relayed(aircraft, listener, "given")
+
+
+def test_an_aircraft_moves_and_its_ground_keeps_control(nodes):
+    old, ground, air_token, _ = nodes.pair(0, 1, "moves")
+    listener, _ = nodes.ground(0, "moves")
+    new, token = nodes.aircraft(2, "moves", air_token)
+    with old, ground, listener, new:
+        assert token == air_token
+        new.expect("watch grounds=2")
+        relayed(new, ground, "moved")
+        assert b'"moved"' not in b"".join(iter(old.file.readline, b""))
+        listener.expect('"down": "moved"')
+
+
+def test_a_killed_node(nodes):
+    aircraft, ground, air_token, _ = nodes.pair(0, 1, "killed")
+    far, near, _, token = nodes.pair(1, 0, "ground-killed")
+    nodes.programs[0].end(signal.SIGKILL)
+    began_s = time.monotonic()
+    new, _ = nodes.aircraft(2, "killed", air_token)
+    resumed, _ = nodes.ground(2, "ground-killed", token=token)
+    with aircraft, ground, far, near, new, resumed:
+        resumed.expect("seat command")
+        new.expect("watch grounds=1")
+        relayed(new, ground, "after the kill")
+        relayed(far, resumed, "after the kill")
+        assert time.monotonic() - began_s < 15.0, "it waited for the lease to expire"
+    nodes.restart(0)
+
+
+def test_a_stopped_node_leaves_its_aircraft_to_the_others(nodes):
+    aircraft, ground, _, _ = nodes.pair(0, 1, "drained")
+    assert nodes.programs[0].end(signal.SIGTERM) == 0
+    # Without a token: the record is free.
+    new, _ = nodes.aircraft(2, "drained")
+    with aircraft, ground, new:
+        new.expect("watch grounds=1")
+        relayed(new, ground, "after the end")
+    nodes.restart(0)
+
+
+def test_a_hung_node_finds_its_aircraft_elsewhere(nodes):
+    hung, ground, air_token, _ = nodes.pair(0, 1, "hung")
+    nodes.programs[0].process.send_signal(signal.SIGSTOP)
+    new, _ = nodes.aircraft(2, "hung", air_token)
+    with hung, ground, new:
+        hung.say('{"down": "of the past"}\n')
+        new.expect("watch grounds=1")
+        relayed(new, ground, "beside the hung node")
+        nodes.programs[0].process.send_signal(signal.SIGCONT)
+        # Its heartbeats keep it from the end of an idle connection.
+        until(lambda: is_closed_after(hung, "\n"), "the end of the old connection", 20.0)
+        new.say('{"down": "last"}\n')
+        assert "past" not in heard_until(ground, "last")
+
+
+def test_old_messages_and_those_of_a_former_home_are_dropped(nodes):
+    ground, _ = nodes.ground(1, "fenced")
+    with ground, RawNats(nodes.servers.ports[1]) as home:
+        beacon = Beacon(True, None).encode()
+        home.publish("up.default.fenced.control", pack("home", 10, 100.0, 0, beacon))
+        ground.expect("aircraft online")
+        for fence, sent_s, mark in (
+            (10, 99.0, "young"),
+            (10, 97.5, "old"),
+            (9, 100.0, "former home"),
+            (10, 100.0, "last"),
+        ):
+            line = f'{{"down": "{mark}"}}\n'.encode()
+            home.publish("up.default.fenced.down", pack("home", fence, sent_s, 0, line))
+        heard = heard_until(ground, "last")
+        assert [mark in heard for mark in ("young", "old", "former home")] == [True, False, False]
+
+
+def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):
+    aircraft, _ = nodes.aircraft(0, "target")
+    with aircraft, RawNats(nodes.servers.ports[1]) as guest:
+        guest.subscribe("up.default.target.control")
+        ground = ListedGround(1, Access.COMMAND, "0" * 32, True, False, "::1", 0.0)
+
+        def say(fence, kind, body):
+            guest.publish(f"up.default.target.{kind}", pack("guest", fence, 100.0, 1, body))
+
+        say(0, "control", GroundList((ground,)).encode())
+        fence = 0
+        while b"seat command" not in (news := unpack(guest.message())).body:
+            fence = news.fence
+        say(fence - 1, "up", b'{"up": "for a former home"}\n')
+        say(fence, "up", b'{"up": "last"}\n')
+        assert "former" not in heard_until(aircraft, "last")
+
+
+def test_pairs_of_one_node_go_on_without_nats(nodes):
+    aircraft, ground, *_ = nodes.pair(1, 1, "alone")
+    servers = nodes.servers
+    for number in range(3):
+        servers.pause(number)
+    until(lambda: nodes.figure(1, "connected") == 0, "the loss of NATS")
+    with aircraft, ground:
+        relayed(aircraft, ground, "without NATS")
+        assert refusal(nodes.programs[1].airborne_port, "UP1 aircraft=new\n") == "cluster"
+        ground.say("UP1 seat release\nUP1 seat request\n")
+        until(lambda: nodes.control_refused(1), "the refusal of control")
+        aircraft.say('{"down": "not granted"}\n')
+        assert "seat command" not in heard_until(ground, "not granted")
+        for number in range(3):
+            servers.resume(number)
+        until(lambda: nodes.figure(1, "connected") == 1, "NATS again")
+        until(
+            lambda: refusal(nodes.programs[2].airborne_port, "UP1 aircraft=alone\n") == "taken",
+            "the lease, still held",
+        )
+        ground.say("UP1 seat request\n")
+        ground.expect("seat command")
+        relayed(aircraft, ground, "with NATS again")

@@ -1,0 +1,50 @@
+import contextlib
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from up_runner.pool.messages import (
+    decode_request,
+    decode_response,
+    encode_request,
+    encode_response,
+)
+from up_runner.request import MalformedRequest, Request
+from up_runner.response import Problem, Response
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(), inner, max_size=3),
+)
+NAMES = st.sampled_from(["pid", "ports", "spawned", "host", "code", "text", "request", "key"])
+
+
+def through_json(fields):
+    return json.loads(json.dumps(fields))
+
+
+def test_a_request_and_its_answer_arrive_as_they_were():
+    settings = {"load_guard.yml": {"interval": 1.5}}
+    request = Request("a.b-1", "cub", settings, labels=("eu", "gpu"), key="0a")
+    assert decode_request(through_json(encode_request(request))) == request
+    for response in (
+        Response("a", 7, {"general": 1}, True, None, "10.0.0.1"),
+        Response("a", error=Problem("instance_limit", "full")),
+    ):
+        assert decode_response("a", through_json(encode_response(response))) == response
+
+
+@given(st.dictionaries(NAMES, JSON))
+def test_any_other_answer_is_none(fields):
+    response = decode_response("a", fields)
+    assert response.instance == "a"
+    with contextlib.suppress(MalformedRequest):
+        decode_request(fields)
+
+
+def test_a_malformed_answer_is_no_answer():
+    assert decode_response("a", {"id": "x"}).error.code == "no_answer"
+    with pytest.raises(MalformedRequest):
+        decode_request({"request": {"aircraft": "../x"}})

@@ -1,0 +1,128 @@
+"""The files of an instance in the object store of a real NATS server, seen by two hosts."""
+
+import json
+
+import pytest
+from twisted.internet.threads import deferToThread
+
+from tests.cluster.connected import connected
+from tests.support.nats_servers import NatsServers
+from tests.support.reactor import run_in_reactor
+from up_cluster.jetstream import WrongRevisionError
+from up_cluster.nats_client import NatsUnavailableError
+from up_cluster.object_store import ObjectStore
+from up_runner.pool.state_files import FLIGHTS, StateFiles
+
+LEARNED = ("pids.yml", "mission.json")
+OBJECT = "t/glider/state"
+
+
+class Host:
+    """A machine: the folder of its instances."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.config = folder / "glider" / "config"
+        self.config.mkdir(parents=True)
+
+    def on_disk(self, function, *arguments):
+        return deferToThread(function, *arguments)
+
+    in_thread = on_disk
+
+    def files(self, store):
+        return StateFiles(store, self, "glider", "t/glider", LEARNED)
+
+    def write(self, **texts):
+        for name, text in texts.items():
+            (self.config / name.replace("_", ".")).write_text(text)
+
+    def present(self):
+        return {each.name: each.read_text() for each in sorted(self.config.iterdir())}
+
+
+class SilentStore(ObjectStore):
+    """Writes, and loses the answer."""
+
+    is_silent = False
+
+    async def put(self, name, read, expected=None):
+        info = await super().put(name, read, expected)
+        if self.is_silent:
+            raise NatsUnavailableError("timeout")
+        return info
+
+
+def test_files_move_from_host_to_host(tmp_path):
+    (tmp_path / "nats").mkdir()
+    with NatsServers(tmp_path / "nats", 1) as server:
+        run_in_reactor(move, server, tmp_path)
+
+
+async def move(server, folder):
+    client = await connected(server)
+    store = SilentStore(client, "up-state")
+    await store.create(1)
+    a, b = Host(folder / "a"), Host(folder / "b")
+
+    # The first host of all keeps and saves its own files, and no others.
+    a.write(pids_yml="gains", other_yml="configuration")
+    (a.folder / "glider" / "profile").write_text("cub\n")
+    first = a.files(store)
+    await first.restore()
+    await first.save()
+    assert a.present() == {"other.yml": "configuration", "pids.yml": "gains"}
+    revision = (await store.info(OBJECT)).revision
+    await first.save()
+    assert (await store.info(OBJECT)).revision == revision, "nothing has changed"
+
+    # The next one replaces those that it had.
+    b.write(pids_yml="old", mission_json="old")
+    second = b.files(store)
+    await second.restore()
+    assert b.present() == {"pids.yml": "gains"}
+    assert (b.folder / "glider" / "profile").read_text() == "cub\n"
+    b.write(mission_json="new")
+    await second.save()
+
+    # A former host cannot replace the state of its successor.
+    a.write(pids_yml="of a former host")
+    with pytest.raises(WrongRevisionError):
+        await first.save()
+    document = json.loads(await store.get_bytes(await store.info(OBJECT)))
+    assert document["files"] == {"mission.json": "new", "pids.yml": "gains"}
+
+    # A write without an answer does not stop those after it.
+    store.is_silent = True
+    b.write(mission_json="unanswered")
+    with pytest.raises(NatsUnavailableError):
+        await second.save()
+    store.is_silent = False
+    b.write(mission_json="answered")
+    await second.save()
+    third = a.files(store)
+    await third.restore()
+    assert a.present()["mission.json"] == "answered"
+
+    # A damaged state, or one that names other files, is not used; the next save replaces it.
+    for content in (b"[", b'{"profile": "", "files": {"../other.yml": "x", "other.yml": "x"}}'):
+        await store.put_bytes(OBJECT, content)
+        await third.restore()
+        assert a.present() == {"other.yml": "configuration"}
+    await third.save()
+    document = json.loads(await store.get_bytes(await store.info(OBJECT)))
+    assert document["files"] == {}
+
+    # Flights leave the host only when they are in the store.
+    flights = a.folder / "glider" / FLIGHTS
+    flights.mkdir(parents=True)
+    (flights / "0001-a.mcap").write_bytes(b"flight")
+    store.is_silent = True
+    await third.save_flights()
+    assert (flights / "0001-a.mcap").read_bytes() == b"flight"
+    store.is_silent = False
+    await third.save_flights()
+    assert not (a.folder / "glider" / "state").exists()
+    info = await store.info("t/glider/flights/0001-a.mcap")
+    assert await store.get_bytes(info) == b"flight"
+    await client.stop()

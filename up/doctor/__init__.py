@@ -1,0 +1,1 @@
+"""``up doctor``: what of this machine could disturb a flight."""
