@@ -84,10 +84,11 @@ def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, 
     with Nodes(server, tmp_path, 2, more) as nodes:
         aircraft, ground, _air_token, _ = nodes.pair(0, 1, "glider-1")
         with aircraft, ground:
-            place = fleet.ask("where", "glider-1")["places"][0]
-            assert (place["kind"], place["state"]) == ("proxy", "online")
+            # At once: another aircraft takes the place of one that is silent for three seconds.
             hello = "UP1 aircraft=glider-1\n"
             assert refusal(nodes.programs[1].airborne_port, hello) == "taken"
+            place = fleet.ask("where", "glider-1")["places"][0]
+            assert (place["kind"], place["state"]) == ("proxy", "online")
             assert fleet.ask("kick", "glider-1")["id"] == place["id"]
             aircraft.file.read()
         # Its name is free for every aircraft, without the token.

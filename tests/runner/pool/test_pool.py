@@ -148,7 +148,8 @@ def test_the_history_of_an_aircraft_has_one_instance_at_a_time(pool):
                 for pid in stopped:
                     os.kill(pid, signal.SIGSTOP)
                 wait_until(lambda h=host: moved(pool, h), "it moves")
-                for pid in stopped:
+                # The runner last: it ends the instance as soon as it goes on.
+                for pid in reversed(stopped):
                     os.kill(pid, signal.SIGCONT)
             case "hang":
                 host.process.send_signal(signal.SIGSTOP)
