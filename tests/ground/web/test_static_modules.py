@@ -134,6 +134,11 @@ def test_no_style_sheet_asks_another_host(style: Path) -> None:
     assert text.count("{") == text.count("}")
 
 
+def test_no_style_sheet_selects_by_what_is_inside():
+    """With :has() Chromium computes the style of the whole page at each new text."""
+    assert STYLES and not [sheet.name for sheet in STYLES if ":has(" in sheet.read_text()]
+
+
 def test_the_modules_do_what_their_tests_say() -> None:
     node = need_tool("node", "nodejs")
     assert UNIT_TESTS

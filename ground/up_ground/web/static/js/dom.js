@@ -1,8 +1,14 @@
 const SVG = "http://www.w3.org/2000/svg";
 
+/** Sets the text of an element without children, only when it changed. */
 export function setText(element, text) {
   if (element.shownText !== text) {
-    element.textContent = text;
+    // An existing text changes in place: a new node would compute styles and the layout again.
+    if (text !== "" && element.firstChild?.nodeName === "#text" && element.childNodes.length === 1) {
+      element.firstChild.data = text;
+    } else {
+      element.textContent = text;
+    }
     element.shownText = text;
   }
 }

@@ -6,7 +6,8 @@ import { rollDemand_deg } from "../state/pilot_input.js";
 
 const MISSING =
   "the charts need uPlot, which is not installed: run tools/web_assets (it needs npm) and reload this page.";
-const DRAW_S = 0.1;
+/** A minute moves by one pixel in about 0.2 s. */
+const DRAW_S = 0.2;
 const CHARTS = [
   {
     title: "Roll",

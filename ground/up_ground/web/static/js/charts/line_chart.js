@@ -15,6 +15,11 @@ export class LineChart {
   #canvas = html("div.chart-canvas", { role: "img" });
   #now = [];
   #title;
+  #width = 0;
+  // Reading clientWidth would compute the page's layout in the middle of its changes.
+  #sizes = new ResizeObserver(([{ contentRect }]) => {
+    this.#width = Math.round(contentRect.width);
+  });
   #onTheme = () => this.#rebuild();
 
   /** decimals: null: as many as it has; leastSpan: of the vertical axis, null: a fiftieth of the values. */
@@ -32,16 +37,18 @@ export class LineChart {
       head.append(now);
     }
     this.element = html("div.chart", {}, head, this.#canvas);
+    this.#sizes.observe(this.#canvas);
     document.addEventListener("up-theme", this.#onTheme);
   }
 
   end() {
+    this.#sizes.disconnect();
     document.removeEventListener("up-theme", this.#onTheme);
     this.#rebuild();
   }
 
   show(columns) {
-    const width = this.#canvas.clientWidth;
+    const width = this.#width;
     if (width === 0) {
       return;
     }

@@ -38,6 +38,8 @@ export class DrawingBar {
     this.toggle.hidden = !canDraw;
     setAttribute(this.toggle, "aria-pressed", String(isDrawing));
     this.element.hidden = !canDraw || !isDrawing;
+    // Not :has() in the style sheets: it would compute the whole page's style at every change of a text.
+    setAttribute(document.documentElement, "data-drawing", String(canDraw && isDrawing));
     this.#tool.value = `${name} ${isPlaced(kind) ? kind : "waypoint"}`;
     this.#undo.disabled = !canUndo;
     this.#redo.disabled = !canRedo;

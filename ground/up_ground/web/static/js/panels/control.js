@@ -147,6 +147,7 @@ export function mount(place, store, connection) {
         button.hidden = !isOffered;
         button.disabled = !isOffered;
       }
+      setAttribute(place, "data-can-request", String(offered.has("request")));
       answers.hidden = !offered.has("give");
       own.hidden = !offered.has("request") && !offered.has("release");
       setText(buttons.get("request"), isWaiting ? "Waiting for control (withdraw)" : ASK);
