@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
-from xdist.scheduler import LoadFileScheduling
 
 from tests.support.showcase import Showcase
 
@@ -19,10 +18,9 @@ settings.register_profile("tests", deadline=None, suppress_health_check=[HealthC
 settings.register_profile("ci", settings.get_profile("tests"), derandomize=True, max_examples=50)
 settings.load_profile("ci" if os.environ.get("UP_REQUIRE_TOOLS") == "1" else "tests")
 
-# A worker takes a whole file, and one takes all that have a browser. What runs in real time comes
-# first and is not nice; then those that take minutes: none is left for the end.
-BROWSER_FILES = ("test_browser.py", "test_guide.py")
-REAL_TIME_FILES = (*BROWSER_FILES, "test_shipped_real.py")
+# A worker takes a whole file. What runs in real time comes first and is not nice; then those that
+# take minutes: none is left for the end.
+REAL_TIME_FILES = ("test_browser.py", "test_guide.py", "test_shipped_real.py")
 LONG_FILES = (*REAL_TIME_FILES, "test_ending.py", "test_shipped.py")
 NICE = 5
 
@@ -30,19 +28,6 @@ NICE = 5
 # Ctrl-C would end none of the tests' own programs.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
-class BrowsersTogether(LoadFileScheduling):
-    """Gives each file to one worker, and all `BROWSER_FILES` to the same one."""
-
-    def _split_scope(self, nodeid):
-        file = super()._split_scope(nodeid)
-        return "browser" if file.endswith(BROWSER_FILES) else file
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config, log):
-    return BrowsersTogether(config, log) if config.getoption("dist") == "loadfile" else None
 
 
 def pytest_collection_modifyitems(items):
