@@ -109,7 +109,7 @@ def points_of(log: FlightLog) -> Iterator[TrackPoint]:
             yield TrackPoint(start + fix.time_s, *place)
         return
     last = None
-    for message in log.messages(TELEMETRY) if TELEMETRY in log.topics else ():
+    for message in log.messages(TELEMETRY):
         location = message.data.get("location")
         found = place_of(location) if isinstance(location, dict) and location != last else None
         if found is not None:
@@ -129,7 +129,7 @@ def track_of(log: FlightLog, name: str, description: str) -> Track:
 
 def _marks(log: FlightLog, points: list[TrackPoint]) -> Iterator[Place]:
     at = 0
-    for message in log.messages(MARK) if MARK in log.topics else ():
+    for message in log.messages(MARK):
         unix_s = log.start_unix_s + message.time_s
         while at + 1 < len(points) and points[at + 1].unix_s <= unix_s:
             at += 1

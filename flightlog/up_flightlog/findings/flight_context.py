@@ -98,7 +98,7 @@ class FlightContext:
     @cached_property
     def truth(self) -> dict[str, Series]:
         """Return ground truth by its names; a real flight has none."""
-        found = self.log.messages(TRUTH) if TRUTH in self.log.topics else ()
+        found = self.log.messages(TRUTH)
         return columns(((each.time_s, each.data) for each in found), TRUTHS)
 
     @cached_property

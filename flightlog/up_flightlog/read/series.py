@@ -72,11 +72,17 @@ class Columns:
 
     def __init__(self, fields: Sequence[str]) -> None:
         self.series = {name: Series() for name in fields}
-        self._paths = [(tuple(name.split(".")), self.series[name].add) for name in fields]
+        self._fields = [
+            (tuple(name.split(".")), series.times_s.append, series.values.append)
+            for name, series in self.series.items()
+        ]
 
     def add(self, time_s: float, data: Mapping[str, Any]) -> None:
-        for path, add in self._paths:
-            add(time_s, number_at(data, path))
+        for path, add_time, add_value in self._fields:
+            value = number_at(data, path)
+            if value is not None:
+                add_time(time_s)
+                add_value(value)
 
 
 def columns(

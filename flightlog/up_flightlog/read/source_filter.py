@@ -28,7 +28,7 @@ class SourceFilter:
     def __init__(self, log: FlightLog) -> None:
         self._times_s: dict[str, list[float]] = {}
         self._links: dict[str, list[str]] = {}
-        for each in log.messages(SELECTED) if SELECTED in log.topics else ():
+        for each in log.messages(SELECTED):
             reading = str(each.data.get("reading"))
             self._times_s.setdefault(reading, []).append(each.time_s)
             self._links.setdefault(reading, []).append(str(each.data.get("source")))
@@ -53,7 +53,7 @@ def from_selected_source(
 ) -> Iterator[tuple[float, Mapping[str, Any]]]:
     """Yield time (s) and data of the messages that a provider used, without required values."""
     sources = SourceFilter(log)
-    for each in log.messages(topic) if topic in log.topics else ():
+    for each in log.messages(topic):
         is_reading = each.data.get("mode") != "required"
         if is_reading and sources.accepts(reading, each.time_s, each.data):
             yield each.time_s, each.data

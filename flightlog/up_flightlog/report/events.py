@@ -79,9 +79,8 @@ def _from_commands(log: FlightLog) -> Iterator[Event]:
             else None
         ),
     }
-    known = [topic for topic in (*handlers, *_TEXT_FIELDS) if topic in log.topics]
     states: dict[str, bool] = {}
-    for message in log.messages(*known) if known else ():
+    for message in log.messages(*handlers, *_TEXT_FIELDS):
         if message.topic in _TEXT_FIELDS:
             text = _text(message.data.get(_TEXT_FIELDS[message.topic]))
             who = "mark" if message.topic == "black_box.mark" else "scenario"

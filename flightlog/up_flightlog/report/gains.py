@@ -24,7 +24,7 @@ def gain_sets(log: FlightLog) -> list[GainSet]:
     """Return the sets in the order of time, without unchanged ones."""
     found: list[GainSet] = []
     requested_by = ""
-    for message in log.messages(*(topic for topic in (VALUES, TUNINGS) if topic in log.topics)):
+    for message in log.messages(VALUES, TUNINGS):
         if message.topic == TUNINGS:
             if message.data.get("request") is not True:
                 requested_by = str(message.data.get(KEY, ""))
@@ -39,7 +39,7 @@ def requested_sets(log: FlightLog) -> list[GainSet]:
     """Return the requested sets, accepted by the board or not."""
     return [
         GainSet(message.time_s, gains_of(data), str(message.data.get(KEY, "")))
-        for message in (log.messages(TUNINGS) if TUNINGS in log.topics else ())
+        for message in log.messages(TUNINGS)
         if message.data.get("request") is not True
         and isinstance(data := message.data.get("pids"), dict)
     ]

@@ -97,10 +97,8 @@ def bands_of(context: FlightContext) -> Iterator[Band]:
 
 
 def _messages(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
-    known = [topic for topic in topics if topic in log.topics]
-    if known:
-        for message in log.messages(*known):
-            yield message.time_s, message.data
+    for message in log.messages(*topics):
+        yield message.time_s, message.data
 
 
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], Series]:
