@@ -121,11 +121,14 @@ def test_another_tenant_sees_and_changes_nothing(server, tmp_path, fleet, a):
         aircraft, _ = nodes.aircraft(0, "glider-1")
         with aircraft:
             id_a = fleet.ask("where", "glider-1")["places"][0]["id"]
+            aircraft.say('{"one": 1}\n')  # One that is silent for 15 s is disconnected.
             listed = of_b.ask("list")
             assert id_a not in {each["id"] for each in listed["members"]}
             assert (listed["lost"], listed["orphans"]) == ([], [])
             assert of_b.refused("kick", "glider-1") == (1, ["unknown_aircraft"])
+            aircraft.say('{"two": 2}\n')
             assert of_b.refused("drain", id_a) == (1, ["no_answer"])
+            aircraft.say('{"three": 3}\n')
             place = fleet.ask("where", "glider-1")["places"][0]
             assert (place["id"], place["state"]) == (id_a, "online")
 

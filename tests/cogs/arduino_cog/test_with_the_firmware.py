@@ -168,7 +168,7 @@ def test_calibrating_is_refused_while_armed_and_by_the_board_while_it_moves(flig
     with board.rig() as rig:
         rig.imu.motion = motion_at(6.0, -4.0, (0.0, 0.0, 20.0))
     board.pass_us(300_000)
-    assert ground.ask("arduino.calibrate", what="gyro") == "not_still"
+    board.wait(lambda: ground.ask("arduino.calibrate", what="gyro") == "not_still", "the refusal")
     with board.rig() as rig:
         rig.imu.motion = motion_at(6.0, -4.0)
 
