@@ -7,7 +7,7 @@ from twisted.internet.error import CannotListenError
 from twisted.internet.task import deferLater
 
 from up.log import UpLogger
-from up.protocols.proxy_lines import Side
+from up.protocols.proxy_lines import CLUSTER, Side
 from up.system.metrics_page import serve_metrics
 from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
@@ -143,7 +143,7 @@ class Proxy:
 
     def _serve_metrics(self, port: int) -> Any:
         try:
-            return serve_metrics(self._reactor, port, self.page)
+            return serve_metrics(self._reactor, port, self.page, self.unready_code)
         except CannotListenError as error:
             raise cannot_listen("metrics port", port, error.socketError) from None
 
@@ -151,6 +151,12 @@ class Proxy:
         if self._are_ports_closed:
             return True  # by a drain: a restart would serve again
         return bool(self._acceptors) and all(acceptor.is_open() for acceptor in self._acceptors)
+
+    def unready_code(self) -> str:
+        """Return why it accepts no new connection; empty: it does."""
+        if self._are_ports_closed:
+            return "draining"
+        return CLUSTER if self._node is not None and not self._node.is_ready else ""
 
     def page(self) -> str:
         now_s = self._poller.tick()

@@ -14,10 +14,10 @@ from twisted.python.failure import Failure
 
 from up.errors import UserError
 from up_cluster.config import ClusterConfig
-from up_cluster.jetstream import JetStreamError
+from up_cluster.jetstream import NOT_ENABLED, STREAM_NOT_FOUND, JetStreamError
 from up_cluster.key_value import Entry
 from up_cluster.lease import parse_record
-from up_cluster.membership import Membership, aircraft_of, parse
+from up_cluster.membership import LEASES, Membership, aircraft_of, parse
 from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.nats_protocol import Message
 
@@ -73,6 +73,7 @@ class Fleet:
                 if not self._client.is_connected:
                     text = f"no connection to NATS at {self._config.servers} (fleet.yml: servers)"
                     raise FleetError(text, "no_connection")
+                await self._check()
                 return await work()
             except (NatsUnavailableError, JetStreamError) as error:
                 raise FleetError(str(error), "no_answer") from None
@@ -90,6 +91,26 @@ class Fleet:
         if isinstance(result[0], Failure):
             result[0].raiseException()
         return result[0]
+
+    async def _check(self) -> None:
+        """Raise FleetError for a NATS that no proxy or runner of a cluster uses."""
+        where = f"NATS at {self._config.servers}"
+        try:
+            await self._member.bucket.check()
+        except (NatsUnavailableError, JetStreamError) as error:
+            if error.code in ("no_responders", *NOT_ENABLED):
+                text = (
+                    f"{where} has no JetStream for this account (nats.conf: jetstream, accounts; "
+                    "fleet.yml: credentials)"
+                )
+                raise FleetError(text, "no_jetstream") from None
+            if error.code == STREAM_NOT_FOUND:
+                text = (
+                    f"{where} has no bucket {LEASES}: no proxy or runner has used it yet, or they "
+                    "use another account (fleet.yml: servers, credentials)"
+                )
+                raise FleetError(text, "no_bucket") from None
+            raise
 
     async def overview(self, wait_s: float) -> dict[str, Any]:
         """Return the members that answered in time, and the entries of those that did not."""

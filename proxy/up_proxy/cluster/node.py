@@ -65,6 +65,11 @@ class ClusterNode:
         self.fenced = 0
         self._malformed = 0
 
+    @property
+    def is_ready(self) -> bool:
+        """Return whether leases can be had."""
+        return self._member.is_ready
+
     def start(self) -> None:
         self._client.subscribe(self._member.subject("nodes"), self._on_heartbeat)
         self._member.start()

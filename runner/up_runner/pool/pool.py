@@ -134,6 +134,12 @@ class Pool:
         labels = frozenset(self._config.pool.labels)
         return RunnerInfo(self.id, self._config.pool.address, free, labels)
 
+    def unready_code(self) -> str:
+        """Return why the pool starts nothing by this runner; empty: it does."""
+        if self._fleet.is_draining:
+            return DRAINING
+        return "" if self._member.is_ready and self._directory.is_current else CLUSTER
+
     def figures(self) -> Iterator[Figure]:
         connected = int(self._member.client.is_connected)
         yield Figure("up_runner_pool_connected", "1 while NATS is connected.", connected)

@@ -7,7 +7,7 @@ import signal
 from contextlib import ExitStack
 
 from tests.runner.runners import RunnerProcess, wait_until
-from tests.support.scrape import scrape
+from tests.support.scrape import probe, scrape
 from up.system.deadline_watch import PERIOD_S
 
 GAP_S = 1.0
@@ -78,6 +78,11 @@ class RunnerPool:
     @staticmethod
     def figure(runner, name):
         return scrape(runner.logs("metrics_open")["port"])[(f"up_runner_pool_{name}",)]
+
+    @staticmethod
+    def health(runner):
+        """Return status and code of its readiness."""
+        return probe(runner.logs("metrics_open")["port"], "ready")
 
     def label_of(self, runner):
         """Return a label that only this runner has."""

@@ -186,6 +186,10 @@ def test_a_runner_without_nats_kills_an_instance_that_knows_no_deadline(servers,
             assert not is_alive(first["pid"])
             answer = pool.runners[1].ask(aircraft="cut-off")
             assert (answer["running"], answer["code"]) == (False, "cluster")
+            assert [pool.health(each) for each in pool.runners] == [
+                (200, "ready"),
+                (503, "cluster"),
+            ]
         finally:
             servers.resume(1)
         again = pool.running_at(pool.runners[0], "cut-off")
