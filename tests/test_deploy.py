@@ -12,9 +12,10 @@ from up.system.figures import text_of
 from up_cluster.config import ClusterConfig
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.proxy import Proxy
-from up_runner.config import RUNNER, PoolConfig, RunnerConfig
+from up_runner.config import RUNNER, RunnerConfig
 from up_runner.metrics import figures_of
 from up_runner.pool.pool import Pool
+from up_runner.pool_config import PoolConfig
 from up_runner.runner import Runner
 
 DEPLOY = Path(__file__).parents[1] / "deploy"

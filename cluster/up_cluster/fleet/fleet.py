@@ -49,6 +49,13 @@ def report_in(payload: bytes) -> dict[str, Any] | None:
     return report if all({"aircraft", "state"} <= row.keys() for row in rows) else None
 
 
+def numbers_in(report: dict[str, Any], key: str) -> dict[str, float]:
+    """Return the numbers by kind in a report; a member of another version may have none."""
+    found = report.get(key)
+    pairs = found.items() if isinstance(found, dict) else ()
+    return {kind: value for kind, value in pairs if isinstance(value, int | float)}
+
+
 class Fleet:
     """Sends requests to the members; every method reports the result, not the request.
 
@@ -123,6 +130,22 @@ class Fleet:
             "lost": [row for row in leases if row["id"] not in known],
             "orphans": sorted(set(wanted) - held),
         }
+
+    async def usage(self, wait_s: float) -> dict[str, Any]:
+        """Return the overview, and the tenant's usage and quotas.
+
+        Each member knows the whole tenant, a new one a part of the hour: the highest counts. Of
+        different quotas the lowest is the one that refuses.
+        """
+        found = await self.overview(wait_s)
+        usage: dict[str, float] = {}
+        quota: dict[str, float] = {}
+        for member in found["members"]:
+            for kind, count in numbers_in(member, "usage").items():
+                usage[kind] = max(count, usage.get(kind, count))
+            for kind, limit in numbers_in(member, "quota").items():
+                quota[kind] = min(limit, quota.get(kind, limit))
+        return {**found, "tenant": {"name": self._config.tenant, "usage": usage, "quota": quota}}
 
     async def where(self, aircraft: str, wait_s: float) -> dict[str, Any]:
         """Return the members that hold an aircraft. Raises FleetError without one."""

@@ -97,6 +97,9 @@ class HostedInstances:
     def __contains__(self, name: str) -> bool:
         return name in self._hosted
 
+    def names(self) -> set[str]:
+        return set(self._hosted)
+
     def lock(self, name: str) -> DeferredLock:
         """Return what orders the starts and ends of an aircraft's instance."""
         return self._locks.setdefault(name, DeferredLock())

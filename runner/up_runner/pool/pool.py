@@ -46,6 +46,7 @@ ANSWER_S = 2.0
 """For the answer of another runner, beyond the time limit of a start."""
 ID = ".pool-id"
 CLUSTER, DRAINING, INSTANCE_LIMIT = "cluster", "draining", "instance_limit"
+QUOTA = "quota"
 _log = UpLogger.get_logger("runner.pool")
 
 
@@ -83,7 +84,7 @@ class Pool:
             reactor, config, self._member, store, instances, host, self._counts
         )
         self._orphans = Orphans(self._directory, self.hosted, self._counts, self._start_orphan)
-        self._fleet = FleetActions(instances, self.info, self._beat)
+        self._fleet = FleetActions(instances, self.info, self._beat, self._shares)
         self._member.actions.update(
             start=self._on_start, request=self._on_request, **self._fleet.actions
         )
@@ -148,10 +149,28 @@ class Pool:
         yield Figure("up_runner_pool_leases", "Instances of this runner.", len(self.hosted))
         text = "Wanted instances that no runner has."
         yield Figure("up_runner_pool_orphans", text, len(self._orphans))
-        for event in ("taken_over", "lease_lost", "state_not_saved", "malformed"):
-            text = "Orphans taken over, lost leases, unsaved states, malformed messages."
+        for name, counts in self._shares().items():
+            for kind, count in counts.items():
+                text = "Usage of the tenant at all runners, and its quota if one is set."
+                yield Figure(f"up_runner_pool_tenant_{name}", text, count, {"kind": kind})
+        for event in ("taken_over", "lease_lost", "state_not_saved", "malformed", QUOTA):
+            text = "Orphans taken over, lost leases, unsaved states, malformed messages, refusals."
             count, labels = self._counts[event], {"event": event}
             yield Figure("up_runner_pool_events", text, count, labels, "counter")
+
+    def _names(self) -> set[str]:
+        """Return the aircraft of the tenant whose instances run or are wanted."""
+        return {*self._directory.wanted, *self._directory.holders, *self.hosted.names()}
+
+    def _shares(self) -> dict[str, dict[str, int]]:
+        """Return the tenant's usage at all runners, and the quota if it is set."""
+        limit = self._config.pool.quota_instances
+        usage = {"instances": len(self._names())}
+        return {"usage": usage, "quota": {"instances": limit} if limit else {}}
+
+    def _is_over_quota(self, name: str) -> bool:
+        limit = self._config.pool.quota_instances
+        return 0 < limit <= len(self._names() - {name})
 
     def _ranking(self, request: Request) -> list[str]:
         runners = [self.info(), *self._directory.others()]
@@ -212,6 +231,9 @@ class Pool:
                 return self._named(await self._instances.spawn(request))
             if self._fleet.is_draining or self._is_stopped:
                 return failed(name, DRAINING, "this runner drains")
+            if not is_orphan and self._is_over_quota(name):
+                self._counts[QUOTA] += 1
+                return failed(name, QUOTA, "the tenant has used its quota of instances")
             if not self._instances.free:
                 return failed(name, INSTANCE_LIMIT, "no free place on this runner")
             try:

@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 
 from tests.cluster.connected import connected
+from tests.cluster.fleet.up_fleet import UpFleet
 from tests.runner.pool.runner_pool import LEASE_S, RunnerPool, doubles, lives
 from tests.runner.runners import is_alive, same_instance, wait_until
 from tests.support.nats_servers import NatsServers
 from tests.support.reactor import run_in_reactor, sleep
+from tests.support.scrape import scrape
 from up.system.deadline_watch import read_deadline
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.membership import LEASES, ask
@@ -195,3 +197,28 @@ def test_a_runner_without_nats_kills_an_instance_that_knows_no_deadline(servers,
         again = pool.running_at(pool.runners[0], "cut-off")
         assert again["host"] == "127.0.0.2", "only this one has the label"
         assert doubles(lives(pool.history, "cut-off")) == []
+
+
+def test_a_tenant_over_its_quota_is_refused_by_every_runner_and_another_is_not(servers, short_path):
+    quota = {"quota_instances": 2}
+    with (
+        RunnerPool(servers, short_path / "full", 2, pool=quota) as pool,
+        RunnerPool(servers, short_path / "other", 1, pool=quota) as other,
+    ):
+        first, second = pool.runners
+        assert first.ask(aircraft="a", labels=["host0"])["spawned"]
+        running = second.ask(aircraft="b", labels=["host1"])
+        for runner in pool.runners:
+            refused = runner.ask(aircraft="c")
+            assert (refused["running"], refused["code"]) == (False, "quota")
+            assert runner.ask(aircraft="b")["pid"] == running["pid"]
+        assert other.runners[0].spawn("c")["spawned"]
+        usage = scrape(first.logs("metrics_open")["port"])
+        assert usage["up_runner_pool_tenant_usage", "instances"] == 2
+        assert usage["up_runner_pool_tenant_quota", "instances"] == 2
+        fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
+        tenant = fleet.ask("usage")["tenant"]
+        assert (tenant["usage"], tenant["quota"]) == ({"instances": 2}, {"instances": 2})
+        # One that ends leaves its place to another.
+        assert fleet.ask("kick", "a", "--instance")["done"] == "stopped"
+        wait_until(lambda: first.ask(aircraft="c")["running"], "a free place")
