@@ -78,7 +78,7 @@ class TenantQuota:
         self._others[node] = self._clock.seconds(), usage
 
     def update(self, registry: AircraftRegistry) -> None:
-        """Count what is connected, and the bytes; at most once in SAMPLE_S."""
+        """Count the connections and the bytes; at most once in SAMPLE_S."""
         now_s = self._clock.seconds()
         if now_s < self._due_s:
             return

@@ -31,6 +31,15 @@ class PoolConfig(ClusterConfig):
         minimum=0,
         maximum=1000000,
     )
+    sleep_after_s: float = key(
+        14400.0,
+        "An instance whose phone is gone for this time, and that reports that it is not armed, "
+        "sleeps until the next request for its aircraft. Only with exit on connection lost: "
+        "false; otherwise it ends after the exit delay. 0: never.",
+        unit="s",
+        minimum=0,
+        maximum=2592000,
+    )
     lease_s: int = key(
         10,
         "Time to live of an instance's lease. Shorter than 10 s, every death of a NATS server "

@@ -339,13 +339,13 @@ def policy_of(config: RunnerConfig) -> Policy:
     Only a black box stops with its phone or after failures: the others may be in flight.
     """
     black_box = config.mode == "black box"
-    restarts = config.restarts
+    restarts, pool = config.restarts, config.pool
+    exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
+    sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
     return Policy(
         start_limit_s=config.start_limit_s,
         watchdog_s=config.watchdog_s or None,
-        exit_delay_s=(
-            config.exit_delay_s if black_box and config.exit_on_connection_lost else None
-        ),
+        exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
         kill_delay_s=KILL_DELAY_S,
         restarts=RestartPolicy(
             restarts.delay_s,
@@ -356,4 +356,5 @@ def policy_of(config: RunnerConfig) -> Policy:
         always_restart=not black_box,
         # Without this port no phone can reach it.
         needed_ports=("general",) if black_box else (),
+        sleeps=sleeps,
     )

@@ -96,7 +96,7 @@ def test_bytes_never_refuse_an_aircraft_that_may_be_in_flight_nor_its_only_groun
     air, _ = busy.hello_air("a")
     busy.hello_ground("a")
     assert refusal(busy.ground("UP1 aircraft=a seat=listen\n")) == "quota"
-    assert refusal(busy.ground("UP1 aircraft=b\n")) == "quota", "there is no such aircraft"
+    assert refusal(busy.ground("UP1 aircraft=b\n")) == "quota", "its aircraft is not connected"
     assert not air.closed
 
 

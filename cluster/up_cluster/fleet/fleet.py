@@ -122,6 +122,7 @@ class Fleet:
     async def overview(self, wait_s: float) -> dict[str, Any]:
         """Return the members that answered in time, and the entries of those that did not."""
         leases, wanted = await self._leases(), await self._keys("wanted")
+        asleep = await self._keys("asleep")
         members = await self._reports(wait_s, leases)
         known = {each["id"] for each in members}
         held = {row["aircraft"] for row in leases if row["kind"] == "instance"}
@@ -129,6 +130,7 @@ class Fleet:
             "members": members,
             "lost": [row for row in leases if row["id"] not in known],
             "orphans": sorted(set(wanted) - held),
+            "asleep": sorted(set(asleep) - set(wanted)),
         }
 
     async def usage(self, wait_s: float) -> dict[str, Any]:
@@ -161,6 +163,9 @@ class Fleet:
             place = {"id": lease["id"], "host": member.get("host", lease["host"])}
             places.append({**row, "kind": KINDS[lease["kind"]], **place})
         if not places:
+            if aircraft in await self._keys("asleep"):
+                text = f"{aircraft} sleeps: the next request of its phone starts it"
+                raise FleetError(text, "asleep", aircraft=aircraft)
             raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
         return {"aircraft": aircraft, "places": places}
 
@@ -186,11 +191,11 @@ class Fleet:
                 await self._ask(lease["id"], {"action": "kick", "aircraft": aircraft})
                 done = "stopped" if kind == "instance" else "disconnected"
                 return {"aircraft": aircraft, "done": done, "id": lease["id"]}
-        entry = (await self._keys("wanted")).get(aircraft) if kind == "instance" else None
-        if entry is None:
-            raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
-        await self._member.bucket.purge(entry.key, expected=entry.revision)
-        return {"aircraft": aircraft, "done": "not_wanted", "id": ""}
+        for key in ("wanted", "asleep") if kind == "instance" else ():
+            if (entry := (await self._keys(key)).get(aircraft)) is not None:
+                await self._member.bucket.purge(entry.key, expected=entry.revision)
+                return {"aircraft": aircraft, "done": "not_wanted", "id": ""}
+        raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
 
     async def _ask(self, member: str, request: dict[str, Any]) -> dict[str, Any]:
         try:

@@ -17,7 +17,8 @@ def list_table(answer: dict[str, Any]) -> list[str]:
     lines = _columns(rows)
     for each in answer["lost"]:
         lines.append(f"{each['aircraft']}: {each['kind']} of {each['id']}, which does not answer")
-    return [*lines, *(f"{name}: wanted, no runner has it" for name in answer["orphans"])]
+    lines += [f"{name}: wanted, no runner has it" for name in answer["orphans"]]
+    return [*lines, *(f"{name}: asleep until its next request" for name in answer["asleep"])]
 
 
 def aircraft_table(answer: dict[str, Any]) -> list[str]:

@@ -20,6 +20,7 @@ from up_cluster.object_store import ObjectStore
 from up_runner.config import RunnerConfig
 from up_runner.instance_host import InstanceHost
 from up_runner.instances import Instances
+from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
 from up_runner.pool.fleet_actions import FleetActions
 from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
@@ -121,6 +122,8 @@ class Pool:
             elif holder is not None and holder != self.id:
                 response = await self._ask_holder(holder, request)
             elif request.action == "status":
+                if name in self._directory.asleep:
+                    return failed(name, ASLEEP, "the instance sleeps: a request starts it")
                 return Response(name)
             else:
                 response = await self._place(request)
@@ -149,6 +152,8 @@ class Pool:
         yield Figure("up_runner_pool_leases", "Instances of this runner.", len(self.hosted))
         text = "Wanted instances that no runner has."
         yield Figure("up_runner_pool_orphans", text, len(self._orphans))
+        text = "Sleeping instances of the tenant."
+        yield Figure("up_runner_pool_asleep", text, len(self._directory.asleep))
         for name, counts in self._shares().items():
             for kind, count in counts.items():
                 text = "Usage of the tenant at all runners, and its quota if one is set."
@@ -178,6 +183,7 @@ class Pool:
 
     async def _place(self, request: Request) -> Response:
         """Let the first runner of the ranking that is able start the instance."""
+        request = self._directory.woken(request)
         needed = ", ".join(request.labels)
         text = f"no runner{needed and f' with the labels {needed}'} has a free place"
         response = failed(request.aircraft, "no_runner", text)

@@ -222,3 +222,34 @@ def test_a_tenant_over_its_quota_is_refused_by_every_runner_and_another_is_not(s
         # One that ends leaves its place to another.
         assert fleet.ask("kick", "a", "--instance")["done"] == "stopped"
         wait_until(lambda: first.ask(aircraft="c")["running"], "a free place")
+
+
+def test_an_instance_sleeps_without_its_phone_and_the_next_request_wakes_it(servers, short_path):
+    settings = {"exit on connection lost": False}
+    with RunnerPool(servers, short_path, 2, pool={"sleep_after_s": 0.5}, **settings) as pool:
+        for runner in pool.runners:
+            runner.write("profiles/easy/telemetry.yml", {"rate": 5})
+        host, other = pool.runners
+        first = other.ask(aircraft="sleeper", profile="easy", labels=["host0"])
+        talk = host.talk(first["ports"]["general"])
+        # Armed, without its phone for longer than the time.
+        for order in ("armed 1", "phone 0", "nap 1.5"):
+            talk.order(order)
+        assert other.status("sleeper")["pid"] == first["pid"]
+        (host.run_folder / "sleeper" / "config" / "mission.json").write_text('{"plan": 1}')
+        talk.order("armed 0")
+        host.logs("ended", cause="asleep", aircraft="sleeper")
+        wait_until(lambda: other.status("sleeper")["code"] == "asleep", "it sleeps")
+        assert not is_alive(first["pid"])
+        assert pool.figure(other, "orphans") == 0 and pool.figure(other, "asleep") == 1
+        fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
+        assert fleet.ask("list")["asleep"] == ["sleeper"]
+        assert fleet.refused("where", "sleeper") == (1, ["asleep"])
+        # At another host, by a request that names nothing but the aircraft.
+        assert host.terminate() == 0
+        second = other.ask(aircraft="sleeper", labels=["host1"])
+        assert (second["spawned"], second["host"]) == (True, "127.0.0.2")
+        config = other.run_folder / "sleeper" / "config"
+        assert (config / "telemetry.yml").read_text() == "rate: 5\n"
+        assert (config / "mission.json").read_text() == '{"plan": 1}'
+        wait_until(lambda: pool.figure(other, "asleep") == 0, "it is awake")
