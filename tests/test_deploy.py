@@ -147,7 +147,8 @@ def exported(folder):
     """Return the names of all metrics of a proxy and a runner in a cluster."""
     proxy = Proxy(reactor, ProxyConfig(cluster=ClusterConfig(servers="nats")))
     config = RunnerConfig(
-        pool=PoolConfig(servers="nats", address="here"), run_folder=str(folder / "run")
+        pool=PoolConfig(servers="nats", address="here", quota_instances=1),
+        run_folder=str(folder / "run"),
     )
     runner = Runner(reactor, config, folder)
     (folder / "run").mkdir()

@@ -28,8 +28,8 @@ class Usage(NamedTuple):
 class TenantQuota:
     """Counts the connections of all nodes; `limits` has those quotas that are set.
 
-    The other nodes' counts are up to a second old, so connections at several nodes at one time may
-    exceed a quota. The bytes of a node that has ended count until an hour after its end.
+    The other nodes' counts are up to two seconds old, so connections at several nodes within that
+    time may exceed a quota. The bytes of a node that has ended count until an hour after its end.
     """
 
     def __init__(self, clock: Clock, config: QuotaConfig) -> None:

@@ -93,7 +93,7 @@ class Server(OneShotTask):
         try:
             if self._metrics_port is not None:
                 self._metrics = serve_metrics(
-                    self._reactor, self._metrics_port, self._figures, self._unready_code
+                    self._reactor, self._metrics_port, self._figures, lambda: ""
                 )
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)
         except CannotListenError as error:
@@ -131,9 +131,6 @@ class Server(OneShotTask):
         for aircraft in self.pages.fleet.values():
             await aircraft.stop()
         await port.stopListening()
-
-    def _unready_code(self) -> str:
-        return "starting" if self._port is None else ""
 
     def _figures(self) -> str:
         return text_of(figures_of(self.pages))
