@@ -147,8 +147,10 @@ class Pool:
     def figures(self) -> Iterator[Figure]:
         connected = int(self._member.client.is_connected)
         yield Figure("up_runner_pool_connected", "1 while NATS is connected.", connected)
-        others = len(self._directory.others())
-        yield Figure("up_runner_pool_runners", "Other runners heard within 3 s.", others)
+        others = self._directory.others()
+        yield Figure("up_runner_pool_runners", "Other runners heard within 3 s.", len(others))
+        free = sum(each.free for each in (self.info(), *others))
+        yield Figure("up_runner_pool_free", "Free places of all runners.", free)
         yield Figure("up_runner_pool_leases", "Instances of this runner.", len(self.hosted))
         text = "Wanted instances that no runner has."
         yield Figure("up_runner_pool_orphans", text, len(self._orphans))

@@ -59,7 +59,7 @@ class RunnerPool:
         self._stack.close()
 
     def repair(self):
-        """Start the runners that do not run, and wait until every one has heard all others."""
+        """Start the runners that do not run, and wait until all know the places of all."""
         ended = [each for each in self.runners if each.process is None]
         for runner in ended:
             runner.start()
@@ -70,6 +70,13 @@ class RunnerPool:
             wait_until(
                 lambda r=runner: self.figure(r, "runners") == others, "the runners know each other"
             )
+        wait_until(self._is_consistent, "every runner knows the free places of the others")
+
+    def _is_consistent(self):
+        """Return whether all are ready, and the others' last heartbeats show that, too."""
+        if any(self.health(each) != (200, "ready") for each in self.runners):
+            return False
+        return len({self.figure(each, "free") for each in self.runners}) == 1
 
     def host_of(self, answer):
         """Return the runner that an answer names."""
