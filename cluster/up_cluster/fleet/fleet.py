@@ -44,9 +44,13 @@ def report_in(payload: bytes) -> dict[str, Any] | None:
     rows, is_draining = report.get("aircraft"), report.get("is_draining")
     if not (all(isinstance(each, str) for each in names) and isinstance(is_draining, bool)):
         return None
-    if not (isinstance(rows, list) and all(isinstance(each, dict) for each in rows)):
+    guests = report.get("guests", [])
+    if not (isinstance(rows, list) and isinstance(guests, list)):
         return None
-    return report if all({"aircraft", "state"} <= row.keys() for row in rows) else None
+    is_row = (
+        isinstance(row, dict) and {"aircraft", "state"} <= row.keys() for row in rows + guests
+    )
+    return report if all(is_row) else None
 
 
 def numbers_in(report: dict[str, Any], key: str) -> dict[str, float]:

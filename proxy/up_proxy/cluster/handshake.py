@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Coroutine
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from twisted.internet.defer import Deferred
@@ -55,19 +54,23 @@ class ClusterHandshake(Handshake):
             except HelloError as error:
                 if hello.token is None:
                     raise
-                checked = session.check_control(hello.token, error)
-                admit_guest = partial(self._admit_guest, session, connection, hello)
-                self._wait(connection, checked, admit_guest, self._refuse)
-            else:
-                self._admit_guest(session, connection, hello, hello.token)
 
-    def _admit_guest(
-        self, session: ClusterSession, connection: Connection, hello: Hello, token: str | None
-    ) -> None:
+                def admit_resumed(_: str) -> None:
+                    if session.is_home:
+                        super(ClusterHandshake, self)._admit(connection, hello)
+                    else:
+                        self._admit_guest(session, connection, hello)
+
+                checked = session.check_control(hello.token, error)
+                self._wait(connection, checked, admit_resumed, self._refuse)
+            else:
+                self._admit_guest(session, connection, hello)
+
+    def _admit_guest(self, session: ClusterSession, connection: Connection, hello: Hello) -> None:
         connection.speaks_hello = True
         connection.reads_packed = hello.packed
         connection.reads_attitude = hello.attitude
-        connection.token = token or new_token()
+        connection.token = hello.token or new_token()
         access = hello.access or Access.COMMAND
         connection.send(Accepted(hello.aircraft, Access.LISTEN, connection.token).encode())
         session.guests.admit(connection, access)

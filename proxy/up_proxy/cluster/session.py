@@ -69,8 +69,7 @@ class ClusterSession(AircraftSession):
 
     @property
     def own_grounds(self) -> int:
-        remote, guests = len(self._remotes), len(self.guests.connections)
-        return super().own_grounds - remote + guests
+        return super().own_grounds - len(self._remotes) + len(self.guests.connections)
 
     def lacks_control(self, now_s: float) -> bool:
         return super().lacks_control(now_s) if self.is_home else self.guests.lacks_control
@@ -120,18 +119,24 @@ class ClusterSession(AircraftSession):
 
     async def check_control(self, token: str, error: HelloError) -> str:
         """Return the token if it has control of the aircraft, otherwise raise the error."""
-        record = await self._node.leases.read(self._node.key(self.name))
-        if record is None or record.data.get("control") != token:
-            raise error
+        self._claims += 1
+        try:
+            if (await self._lease_data()).get("control") != token:
+                raise error
+        finally:
+            self._claims -= 1
         return token
+
+    async def _lease_data(self) -> dict[str, Any]:
+        record = await self._node.leases.read(self._node.key(self.name))
+        return {} if record is None else record.data
 
     async def _claim_from_others(self, token: str | None) -> str:
         try:
             self._take()
         except HelloError:
-            # An aircraft in flight that changes its node.
-            record = await self._node.leases.read(self._node.key(self.name))
-            if token is None or record is None or record.data.get("air") != token:
+            # An aircraft in flight may change its node.
+            if token is None or (await self._lease_data()).get("air") != token:
                 raise
             return await self._acquire(token)
         try:

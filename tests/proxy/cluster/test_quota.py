@@ -10,6 +10,7 @@ from tests.proxy.cluster.nodes import Nodes, refusal, relayed
 from tests.support.nats_servers import NatsServers
 from tests.support.scrape import scrape
 from tests.support.waiting import until
+from up_cluster.fleet.tables import usage_table
 
 
 @pytest.fixture(scope="module")
@@ -81,5 +82,5 @@ def check_shown(server, folder):
     tenant = shown["tenant"]
     assert (tenant["name"], tenant["quota"]) == ("full", {"aircraft": 1, "grounds": 2})
     assert tenant["usage"]["aircraft"] >= 1 and tenant["usage"]["hour_bytes"] > 0
-    lines = [line.split() for line in fleet.run("usage").stdout.splitlines()]
+    lines = [line.split() for line in usage_table(shown)]
     assert [(line[0], line[-1]) for line in lines if line[1:2] == ["grounds"]] == [("full", "2")]
