@@ -12,13 +12,15 @@ from up.system.figures import text_of
 from up_cluster.config import ClusterConfig
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.proxy import Proxy
-from up_runner.config import RUNNER, PoolConfig, RunnerConfig
+from up_runner.config import RUNNER, RunnerConfig
 from up_runner.metrics import figures_of
 from up_runner.pool.pool import Pool
+from up_runner.pool_config import PoolConfig
 from up_runner.runner import Runner
 
 DEPLOY = Path(__file__).parents[1] / "deploy"
 MANIFESTS = sorted((DEPLOY / "kubernetes").glob("*.yml"))
+PROBES = ("readinessProbe", "livenessProbe")
 METRIC = re.compile(r"\b(?:up_[a-z_]+|process_[a-z_]+)")
 
 
@@ -63,8 +65,17 @@ def test_kubernetes_runs_the_programs_with_their_ports_and_keys(tmp_path):
     }
     assert ports["up-proxy"] == {"airborne": proxy.airborne_port, "ground": proxy.ground_port}
     assert ports["up-runner"] == {"requests": runner.port}
-    shown = json.dumps(documents())
-    assert f"http://127.0.0.1:{proxy.metrics_port}/metrics" in shown
+    probes = {
+        container["name"]: [json.dumps(container[each]) for each in PROBES]
+        for pod in pods()
+        for container in pod["spec"]["template"]["spec"]["containers"]
+        if container["name"] != "nats"
+    }
+    for page, shown in zip(("ready", "live"), probes["up-proxy"], strict=True):
+        assert f"http://127.0.0.1:{proxy.metrics_port}/{page}'" in shown
+    for page, shown in zip(("ready", "live"), probes["up-runner"], strict=True):
+        get = json.loads(shown)["httpGet"]
+        assert get == {"host": "127.0.0.1", "port": runner.metrics_port, "path": f"/{page}"}
     mounts = next(each for each in pods() if each["kind"] == "DaemonSet")["spec"]["template"]
     container = mounts["spec"]["containers"][0]
     assert runner.run_folder in {each["mountPath"] for each in container["volumeMounts"]}
@@ -85,10 +96,11 @@ def test_each_pod_is_consistent(pod):
     for container in spec["containers"]:
         assert {each["name"] for each in container["volumeMounts"]} == volumes
         names = {each["name"]: each["containerPort"] for each in container["ports"]}
-        for probe in ("readinessProbe", "livenessProbe"):
-            for kind in ("tcpSocket", "httpGet"):
-                port = container.get(probe, {}).get(kind, {}).get("port")
-                assert port is None or port in names
+        for probe in PROBES:
+            get = container.get(probe, {}).get("httpGet", {})
+            # The loopback of a pod that has the machine's network.
+            is_own = get.get("host") == "127.0.0.1" and spec.get("hostNetwork")
+            assert not get or get["port"] in names or is_own
         for service in services:
             if service["spec"]["selector"] == labels:
                 offered = {each["name"]: each["port"] for each in service["spec"]["ports"]}
@@ -111,6 +123,8 @@ def test_compose_runs_three_nodes(tmp_path):
             section = config.cluster if file is PROXY else config.pool
             check_cluster(section, tmp_path)
             assert {server.host for server in section.addresses()} <= set(services)
+            page = f"http://127.0.0.1:{config.metrics_port}/ready'"
+            assert page in service["healthcheck"]["test"][-1]
             if file is RUNNER:
                 assert section.address == name and config.proxy.host in services
             else:
@@ -133,7 +147,8 @@ def exported(folder):
     """Return the names of all metrics of a proxy and a runner in a cluster."""
     proxy = Proxy(reactor, ProxyConfig(cluster=ClusterConfig(servers="nats")))
     config = RunnerConfig(
-        pool=PoolConfig(servers="nats", address="here"), run_folder=str(folder / "run")
+        pool=PoolConfig(servers="nats", address="here", quota_instances=1),
+        run_folder=str(folder / "run"),
     )
     runner = Runner(reactor, config, folder)
     (folder / "run").mkdir()

@@ -12,6 +12,8 @@ from up_cluster import nats_protocol as nats
 from up_cluster.nats_client import NatsClient
 
 STREAM_NAME_EXISTS = 10058
+STREAM_NOT_FOUND, NOT_ENABLED = 10059, (10039, 10076)
+"""Without the stream; without JetStream for the account, or at the server."""
 NANOSECONDS = 1_000_000_000
 EXPECTED = "Nats-Expected-Last-Subject-Sequence"
 """Header of a write: the sequence of the subject's last message, 0: none."""

@@ -79,6 +79,10 @@ class KeyValueBucket:
             if not found["config"].get("allow_msg_ttl"):
                 raise JetStreamError(error.code, f"{self._stream} exists without a TTL") from None
 
+    async def check(self) -> None:
+        """Raise the error of a bucket that does not exist."""
+        await api(self._client, f"STREAM.INFO.{self._stream}", {})
+
     async def get(self, key: str) -> Entry | None:
         """Return the newest entry that the bucket's leader knows; None for an unknown key.
 

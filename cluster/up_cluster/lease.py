@@ -141,6 +141,11 @@ class LeaseStore:
             return lease
         raise NatsUnavailableError("contended")
 
+    async def read(self, key: str) -> Record | None:
+        """Return a key's record, which may be old; None without one."""
+        entry = await self._bucket.get(key)
+        return None if entry is None else parse_record(entry)
+
     async def update(self, lease: Lease, data: dict[str, Any]) -> None:
         """Replace the data of a held lease, and renew it.
 

@@ -78,6 +78,8 @@ class Membership:
         self.makers: list[Callable[[int], Awaitable[None]]] = [self.bucket.create]
         """Make the buckets, with the number of replicas."""
         self.on_ready: Callable[[], object] = lambda: None
+        self.is_ready = False
+        """NATS is connected and has the buckets."""
         self._timer: Timer | None = None
 
     def start(self) -> None:
@@ -102,6 +104,7 @@ class Membership:
 
     def _on_connected(self, is_connected: bool) -> None:
         cancel(self._timer)
+        self.is_ready = False
         self.on_connected(is_connected)
         if is_connected:
             self._make_buckets()
@@ -118,6 +121,7 @@ class Membership:
             if self.client.is_connected:
                 self._timer = self._reactor.callLater(BUCKET_RETRY_S, self._make_buckets)
         else:
+            self.is_ready = self.client.is_connected
             self.on_ready()
 
     def _on_request(self, message: nats.Message) -> None:

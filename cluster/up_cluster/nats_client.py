@@ -38,6 +38,12 @@ _GOOD_AFTER_S = 5.0
 _log = UpLogger.get_logger("cluster")
 
 OnMessage = Callable[[nats.Message], object]
+WriteTo = Callable[[Any, bytes], None]
+
+
+def write_to(transport: Any, data: bytes) -> None:
+    """Write as any reactor does."""
+    transport.write(data)
 
 
 class NatsUnavailableError(Exception):
@@ -56,7 +62,8 @@ class NatsClient:
 
     `start` it, then use it: subscriptions survive a change of the server. Messages without
     a connection are dropped and counted, as are the oldest messages behind a slow server.
-    `on_connected(bool)` is called at each change. The reactor's thread only.
+    `on_connected(bool)` is called at each change. The reactor's thread only. A reactor with
+    `write_to(transport, data)` writes the messages.
     """
 
     def __init__(
@@ -70,6 +77,7 @@ class NatsClient:
         on_connected: Callable[[bool], object] = lambda _: None,
     ) -> None:
         self._reactor = reactor
+        self.write_to: WriteTo = getattr(reactor, "write_to", write_to)
         self._servers = deque(servers)
         self._tls = tls
         self._on_connected = on_connected
@@ -329,7 +337,7 @@ class NatsLink(Protocol):
     def send_data(self, frame: bytes) -> int:
         """Send a message, or keep it for a slow server; return how many older ones were dropped."""
         if not self._is_paused:
-            self.transport.write(frame)
+            self._client.write_to(self.transport, frame)
             return 0
         self._data.append(frame)
         self._data_bytes += len(frame)

@@ -6,6 +6,7 @@ https://docs.nats.io/reference/reference-protocols/nats-protocol
 import json
 import re
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 MAX_LINE_BYTES = 65536
@@ -14,6 +15,8 @@ MAX_MESSAGE_BYTES = 8 * 2**20
 """Headers and payload of a message; the default of a server is 1 MiB."""
 PING, PONG = b"PING\r\n", b"PONG\r\n"
 
+_MESSAGE = re.compile(rb"MSG ([!-~]+) ([0-9]{1,10}) ([0-9]{1,10})\r\n")
+"""Of a message without a reply and headers: the path of every relayed line."""
 _SUBJECT = re.compile(r"[!-~]+", re.ASCII)
 _STATUS = re.compile(r"NATS/1\.0(?: ([0-9]{3})(?: (.*))?)?", re.ASCII)
 _NUMBER = re.compile(rb"[0-9]{1,10}")
@@ -71,7 +74,17 @@ class NatsParser:
         buffer = self._buffer + data if self._buffer else data
         at = 0
         try:
-            while (end := buffer.find(b"\r\n", at)) >= 0:
+            while True:
+                if (quick := _MESSAGE.match(buffer, at)) is not None:
+                    begin = quick.end()
+                    end = begin + int(quick[3])
+                    if buffer[end : end + 2] == b"\r\n":
+                        at = end + 2
+                        subject = quick[1].decode("ascii")
+                        yield Message(subject, int(quick[2]), "", b"", buffer[begin:end])
+                        continue
+                if (end := buffer.find(b"\r\n", at)) < 0:
+                    break
                 line = buffer[at:end]
                 if len(line) > MAX_LINE_BYTES:
                     break
@@ -175,6 +188,12 @@ def connect(options: Mapping[str, object]) -> bytes:
     return b"CONNECT %s\r\n" % json.dumps(options, separators=(",", ":")).encode()
 
 
+@lru_cache(2**15)
+def _pub(to: str) -> bytes:
+    """Return the begin of PUB; the subjects of a relay repeat. Raises ValueError."""
+    return b"PUB %b " % _checked(to).encode("ascii")
+
+
 def subscribe(subject: str, sid: int) -> bytes:
     """Return SUB; `sid` is in each message of it. Raises ValueError for an invalid subject."""
     return f"SUB {_checked(subject)} {sid}\r\n".encode("ascii")
@@ -189,6 +208,8 @@ def publish(
     subject: str, payload: bytes, reply: str = "", headers: Mapping[str, str] | None = None
 ) -> bytes:
     """Return PUB, or HPUB if there are headers. Raises ValueError for an invalid subject."""
+    if not headers and not reply:
+        return b"%b%d\r\n%b\r\n" % (_pub(subject), len(payload), payload)
     to = f"{_checked(subject)} {_checked(reply)}" if reply else _checked(subject)
     if not headers:
         return b"PUB %s %d\r\n%b\r\n" % (to.encode("ascii"), len(payload), payload)

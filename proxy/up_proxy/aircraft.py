@@ -47,6 +47,15 @@ class AircraftSession(Owner):
     def close(self) -> None:
         """End its use: it is deserted."""
 
+    @property
+    def own_grounds(self) -> int:
+        """How many grounds are connected to this proxy."""
+        return len(self.grounds.connections)
+
+    def lacks_control(self, now_s: float) -> bool:
+        """Return whether it is online and no ground has control."""
+        return self.is_online(now_s) and self.grounds.lease.is_free(now_s)
+
     def is_online(self, now_s: float) -> bool:
         return self.air_lease.live_owner(now_s) is not None
 

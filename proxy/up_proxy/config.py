@@ -49,6 +49,22 @@ class LimitsConfig:
 
 
 @dataclass(frozen=True, slots=True)
+class QuotaConfig:
+    """What the tenant may use at all nodes of its cluster together; 0: as much as it likes."""
+
+    aircraft: int = key(0, "Connected aircraft.", minimum=0, maximum=1000000)
+    grounds: int = key(0, "Connected grounds.", minimum=0, maximum=1000000)
+    mb_per_hour: int = key(
+        0,
+        "Received from aircraft and grounds within an hour. Beyond it new connections are refused, "
+        "except that of an aircraft of this hour, and that of the ground which gets control.",
+        unit="MB",
+        minimum=0,
+        maximum=1000000000,
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class TLSConfig:
     """Ports with TLS: each peer needs a certificate of the CA, whatever its address."""
 
@@ -135,6 +151,7 @@ class ProxyConfig:
     tls: TLSConfig = section(TLSConfig)
     cluster: ClusterConfig = section(ClusterConfig)
     limits: LimitsConfig = section(LimitsConfig)
+    quota: QuotaConfig = section(QuotaConfig)
 
 
 PROXY = ConfigFile("proxy.yml", ProxyConfig)

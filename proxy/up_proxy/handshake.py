@@ -18,9 +18,11 @@ from up.protocols.proxy_lines import (
     Side,
     parse_hello,
 )
+from up_proxy.aircraft import AircraftSession
 from up_proxy.connection import Connection, Owner
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
+from up_proxy.tenant_quota import TenantQuota
 
 HELLO_TIMEOUT_S = 5.0
 """Time limit for completing a hello."""
@@ -44,10 +46,13 @@ def new_token() -> str:
 class Handshake(Owner):
     """Owns the connections of one side until their first line identifies them."""
 
-    def __init__(self, side: Side, registry: AircraftRegistry, poller: Poller) -> None:
+    def __init__(
+        self, side: Side, registry: AircraftRegistry, poller: Poller, quota: TenantQuota
+    ) -> None:
         self._side = side
         self._registry = registry
         self._poller = poller
+        self._quota = quota
         self._lingering = LingeringClose()
         self._since_s: dict[Connection, float] = {}
         self.refused = dict.fromkeys(CODES, 0)
@@ -121,16 +126,27 @@ class Handshake(Owner):
                 if hello.token is None:
                     raise HelloError(TAKEN, "an aircraft of this name is connected")
                 raise HelloError(TOKEN, "this token is not that of the connected aircraft")
+            if not resumed:
+                self._take_aircraft(session)
             connection.token = lease.token if resumed and lease.token else new_token()
             access = Access.AIR
             connection.send(Accepted(hello.aircraft, access, connection.token).encode())
             session.admit(connection)
         else:
             self._registry.check_room(session, hello.token)
+            if not session.grounds.lease.is_resumed_by(hello.token):
+                self._take_ground(session, hello.access)
             connection.token = new_token()
             access = session.grounds.admit(connection, hello.access, hello.token)
             connection.send(Accepted(hello.aircraft, access, connection.token).encode())
             session.announce(newcomer=connection)
+
+    def _take_aircraft(self, session: AircraftSession) -> None:
+        self._quota.take(Side.AIRBORNE, is_needed=self._quota.was_here(session.name))
+
+    def _take_ground(self, session: AircraftSession, access: Access | None) -> None:
+        gets_control = access is not Access.LISTEN and session.lacks_control(self._poller.now_s)
+        self._quota.take(Side.GROUND, is_needed=gets_control)
 
     def _admit_legacy(self, connection: Connection, silent: bool) -> None:
         try:
@@ -139,9 +155,11 @@ class Handshake(Owner):
                 check_name(connection, LEGACY_AIRCRAFT)
                 if not session.air_lease.is_free(self._poller.now_s):
                     raise HelloError(TAKEN, "an aircraft of this name is connected")
+                self._take_aircraft(session)
                 session.admit(connection)
             else:
                 self._registry.check_room(session)
+                self._take_ground(session, Access.COMMAND)
                 session.grounds.admit(connection, Access.COMMAND, None)
                 session.announce(newcomer=connection)
         except HelloError as error:

@@ -10,6 +10,7 @@ from up_proxy.acceptor import Acceptor
 from up_proxy.aircraft import AircraftSession
 from up_proxy.loop_tick import LoopTick
 from up_proxy.registry import AircraftRegistry
+from up_proxy.tenant_quota import TenantQuota
 
 Samples = list[tuple[Mapping[str, str], float]]
 """Labels and value of each sample."""
@@ -94,6 +95,16 @@ def render(
             *more,
         ]
     )
+
+
+def quota_metrics(quota: TenantQuota) -> list[Metric]:
+    """Return what the tenant uses at all nodes, and the quotas that are set."""
+    used: Samples = [({"kind": kind}, count) for kind, count in quota.used()._asdict().items()]
+    limits: Samples = [({"kind": kind}, limit) for kind, limit in quota.limits.items()]
+    return [
+        ("up_proxy_tenant_usage", "gauge", "Usage of the tenant at all nodes, by kind.", used),
+        ("up_proxy_tenant_quota", "gauge", "Quotas of the tenant that are set.", limits),
+    ]
 
 
 def _by_code(

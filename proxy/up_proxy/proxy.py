@@ -7,7 +7,7 @@ from twisted.internet.error import CannotListenError
 from twisted.internet.task import deferLater
 
 from up.log import UpLogger
-from up.protocols.proxy_lines import Side
+from up.protocols.proxy_lines import CLUSTER, Side
 from up.system.metrics_page import serve_metrics
 from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
@@ -19,9 +19,10 @@ from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
 from up_proxy.listener import StartError, cannot_listen, listen
 from up_proxy.loop_tick import LoopTick
-from up_proxy.metrics import render
+from up_proxy.metrics import quota_metrics, render
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
+from up_proxy.tenant_quota import TenantQuota
 
 if TYPE_CHECKING:
     from twisted.internet.defer import Deferred
@@ -41,6 +42,7 @@ class Proxy:
         self._poller = Poller(reactor, reactor.seconds)
         limits = config.limits
         self._are_ports_closed = False
+        self._quota = TenantQuota(reactor, config.quota)
         self._node = self._new_node(folder) if config.cluster.servers else None
         make = AircraftSession if self._node is None else self._node.new_session
         self.registry = AircraftRegistry(
@@ -134,8 +136,14 @@ class Proxy:
 
         try:
             config = self._config
-            listeners = config.limits.listeners
-            node = ClusterNode(self._reactor, self._poller, config.cluster, folder, listeners)
+            node = ClusterNode(
+                self._reactor,
+                self._poller,
+                config.cluster,
+                folder,
+                config.limits.listeners,
+                self._quota,
+            )
         except (ClusterError, TLSError) as error:
             raise StartError(error.code, f"{error} (proxy.yml: cluster)", status=2) from None
         node.on_drain = self._close_acceptors
@@ -143,7 +151,7 @@ class Proxy:
 
     def _serve_metrics(self, port: int) -> Any:
         try:
-            return serve_metrics(self._reactor, port, self.page)
+            return serve_metrics(self._reactor, port, self.page, self.unready_code)
         except CannotListenError as error:
             raise cannot_listen("metrics port", port, error.socketError) from None
 
@@ -152,9 +160,15 @@ class Proxy:
             return True  # by a drain: a restart would serve again
         return bool(self._acceptors) and all(acceptor.is_open() for acceptor in self._acceptors)
 
+    def unready_code(self) -> str:
+        """Return why it accepts no new connection; empty: it does."""
+        if self._are_ports_closed:
+            return "draining"
+        return CLUSTER if self._node is not None and not self._node.is_ready else ""
+
     def page(self) -> str:
         now_s = self._poller.tick()
-        more = () if self._node is None else self._node.metrics()
+        more = [*quota_metrics(self._quota), *(self._node.metrics() if self._node else ())]
         return render(self._acceptors, self.registry, self._loop_tick, now_s, more)
 
     @property
@@ -168,7 +182,7 @@ class Proxy:
         label = f"{side.value} port"
         listener = listen(label, config.address, port, config.limits.user_timeout_ms)
         if self._node is None:
-            handshake = Handshake(side, self.registry, self._poller)
+            handshake = Handshake(side, self.registry, self._poller, self._quota)
         else:
             handshake = self._node.new_handshake(side, self.registry)
         return Acceptor(listener, handshake, self._poller, self._reactor, side, config, tls)
@@ -178,4 +192,5 @@ class Proxy:
         for acceptor in self._acceptors:
             acceptor.sweep(now_s)
         self.registry.sweep(now_s)
+        self._quota.update(self.registry)
         self._poller.reap()

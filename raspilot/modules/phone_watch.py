@@ -1,10 +1,11 @@
-"""Tells the runner whether the phone of this instance is connected (docs/runner.md)."""
+"""Tells the runner whether the phone of this instance is connected, and whether it is armed."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from up.base_started_module import BaseStartedModule
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.system_commands import LinkStateCommand
 from up.system.clock import Timer, cancel
 from up.system.notify import Notifier
@@ -14,12 +15,16 @@ REPEAT_S = 2.0
 
 
 class PhoneWatch(BaseStartedModule):
-    """Loaded only if a runner started the instance; repeats the report for a new runner."""
+    """Loaded only if a runner started the instance; repeats the report for a new runner.
+
+    Without a board, as in Black Box Mode, nothing can be armed (docs/runner.md).
+    """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.notifier = Notifier.from_environment()
         self._is_connected = False
+        self._is_armed = False
         self._timer: Timer | None = None
 
     def load(self) -> bool:
@@ -27,6 +32,7 @@ class PhoneWatch(BaseStartedModule):
 
     def on_init(self) -> None:
         self.up.command_executor.register_command(LinkStateCommand, self._on_link)
+        self.up.command_executor.register_command(FlightStateCommand, self._on_flight_state)
 
     def on_start(self) -> bool:
         self._repeat()
@@ -40,9 +46,14 @@ class PhoneWatch(BaseStartedModule):
             self._is_connected = command.connected
             self._report()
 
+    def _on_flight_state(self, command: FlightStateCommand) -> None:
+        """Count an aircraft that may be in flight as armed."""
+        self._is_armed = command.is_armed or command.is_in_flight is not False
+
     def _repeat(self) -> None:
         self._timer = self.context.reactor.callLater(REPEAT_S, self._repeat)
         self._report()
 
     def _report(self) -> None:
         self.notifier.variable("X_UP_PHONE", "1" if self._is_connected else "0")
+        self.notifier.variable("X_UP_ARMED", "1" if self._is_armed else "0")

@@ -11,8 +11,8 @@ from up.config import ConfigFile, items, key, mapping, section
 from up.config.schema import ListOf
 from up.fields import Constraint
 from up.system.figures import PACKAGE_MISSING, is_installed
-from up_cluster.config import ClusterConfig
-from up_runner.request import LABEL, MAX_LABELS, NAME
+from up_runner.pool_config import PoolConfig
+from up_runner.request import NAME
 
 Security = Literal["auto", "off", "accept", "require"]
 FILE_NAME = Constraint(str, max_length=64)
@@ -137,39 +137,6 @@ class KeyQuota:
     starts_per_minute: int = key(
         6, "Starts of instances.", name="starts per minute", minimum=1, maximum=1000
     )
-
-
-@dataclass(frozen=True, slots=True)
-class PoolConfig(ClusterConfig):
-    """The NATS servers over which several runners act as one."""
-
-    address: str = key(
-        "",
-        "Name or address of this host for phones: the answers name it. Required with servers.",
-        max_length=255,
-    )
-    labels: tuple[str, ...] = items(
-        Constraint(str, max_length=32),
-        "What a request may require of the host: words of A-Z a-z 0-9 _ . -",
-        max_length=MAX_LABELS,
-    )
-    lease_s: int = key(
-        10,
-        "Time to live of an instance's lease. Shorter than 10 s, every death of a NATS server "
-        "restarts instances; longer, those of a dead host start later elsewhere.",
-        name="lease",
-        unit="s",
-        minimum=3,
-        maximum=60,
-    )
-
-    def problems(self) -> Iterator[tuple[str, str]]:
-        yield from ClusterConfig.problems(self)
-        if self.servers and not self.address:
-            yield "address", "must name this host for phones"
-        for label in self.labels:
-            if not LABEL.fullmatch(label):
-                yield "labels", f"{label!r} is not a word of A-Z a-z 0-9 _ . -"
 
 
 @dataclass(frozen=True, slots=True)

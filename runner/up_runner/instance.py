@@ -45,6 +45,7 @@ class Instance:
         self.state = State.ENDED
         self.ports: dict[str, int] | None = None
         self.phone: bool | None = None
+        self.armed: bool | None = None
         self.last_end: Problem | None = None
         self.rejected = 0
         """Notifications from another process than the instance's."""
@@ -137,11 +138,13 @@ class Instance:
         if self._child is None or pid != self._child.pid:
             self.rejected += 1
             return
-        before = (self.ports, self.phone)
+        before = (self.ports, self.phone, self.armed)
         if notification.ports is not None:
             self.ports = dict(notification.ports)
         if notification.phone is not None:
             self.phone = notification.phone
+        if notification.armed is not None:
+            self.armed = notification.armed
         self._is_ready |= notification.ready
         if notification.stopping:
             self._on_stopping(self._child)
@@ -150,7 +153,7 @@ class Instance:
         elif self.state is State.RUNNING:
             if notification.alive or notification.ready:
                 self._reset_watchdog()
-            if before != (self.ports, self.phone):
+            if before != (self.ports, self.phone, self.armed):
                 self._watch_phone()
                 self._save()
 
@@ -217,7 +220,7 @@ class Instance:
     def _take(self, child: Process) -> None:
         self._child = child
         child.on_end = self._on_end
-        self.ports = self.phone = None
+        self.ports = self.phone = self.armed = None
         self._is_ready = self._is_stopping = False
 
     def _check_ports(self) -> None:
@@ -230,10 +233,7 @@ class Instance:
     def _on_ports(self, found: frozenset[int] | None, child: Process) -> None:
         if self.state is not State.STARTING or child is not self._child:
             return
-        ports = self.ports or {}
-        self._unbound = [name for name in self._policy.needed_ports if name not in ports]
-        if found is not None:
-            self._unbound += [f"{name} {port}" for name, port in ports.items() if port not in found]
+        self._unbound = self._policy.unbound(self.ports or {}, found)
         if not self._unbound:
             self._feed(Input.READY)
         elif self._timer is None:
@@ -256,8 +256,12 @@ class Instance:
         if self._policy.watchdog_s is not None:
             self._watchdog.reset()
 
+    @property
+    def _is_needed(self) -> bool:
+        return bool(self.phone) or (self._policy.sleeps and self.armed is not False)
+
     def _watch_phone(self) -> None:
-        if self.phone:
+        if self._is_needed:
             self._exit_delay.stop()
         elif self._policy.exit_delay_s is not None and not self._exit_delay.running:
             # From the loss on; an instance that repeats the report gains no time.
@@ -265,27 +269,19 @@ class Instance:
 
     def _on_start_limit(self) -> None:
         self._drain()
-        if self.state is not State.STARTING:
-            return
-        limit = f"within {self._policy.start_limit_s:g} s"
-        if self._is_ready and self._unbound:
-            missing = f"reported ready but has not bound its port {self._unbound[0]}"
-            self._kill_for(Problem("port_not_bound", f"Raspilot {missing} {limit}"))
-        else:
-            self._kill_for(Problem("not_ready", f"Raspilot did not report ready {limit}"))
+        if self.state is State.STARTING:
+            self._kill_for(self._policy.late_start(self._unbound if self._is_ready else ()))
 
     def _on_silence(self) -> None:
         # The runner itself may have been blocked: first process the waiting notifications.
         self._drain()
         if not self._watchdog.running and self.state is State.RUNNING:
-            limit = f"{self._policy.watchdog_s:g} s"
-            self._kill_for(Problem("hung", f"Raspilot hung: no sign of life for {limit}"))
+            self._kill_for(self._policy.hung())
 
     def _on_phone_gone(self) -> None:
         self._drain()
-        if not self.phone and self.state is State.RUNNING:
-            delay = f"{self._policy.exit_delay_s:g} s"
-            self.stop(Problem("phone_gone", f"its phone was gone for {delay}"))
+        if not self._is_needed and self.state is State.RUNNING:
+            self.stop(self._policy.phone_gone())
 
     def _on_stopping(self, child: Process) -> None:
         """Limit the time of a process that announced its end."""

@@ -46,7 +46,7 @@ class Instances:
         """Called with each instance that has ended for good."""
         self._instances: dict[str, Instance] = {}
         self._maintenance = LogMaintenance(host, kept, lambda: list(self._instances))
-        self._closed = False
+        self.is_closed = False
         self._failures: dict[str, tuple[float, Request, Problem]] = {}
         self._log = Logger(namespace="runner")
         host.on_change = self._on_instance_change
@@ -87,7 +87,7 @@ class Instances:
                 return instance.response(spawned=False, error=instance.waiting_problem())
             else:
                 return await self._join(instance, request)
-        if self._closed:
+        if self.is_closed:
             return Response(name, error=STOPPING)
         if len(self._instances) >= self._limit:
             text = f"all {self._limit} instances of this host are in use"
@@ -119,14 +119,14 @@ class Instances:
     @property
     def free(self) -> int:
         """Return how many more instances may run."""
-        return 0 if self._closed else max(0, self._limit - len(self._instances))
+        return 0 if self.is_closed else max(0, self._limit - len(self._instances))
 
     def get(self, name: str) -> Instance | None:
         return self._instances.get(name)
 
     def stop_all(self) -> Deferred[Any]:
         """Stop every instance and accept no new one; fires when all have ended."""
-        self._closed = True
+        self.is_closed = True
         ends = []
         for instance in list(self._instances.values()):
             ends.append(instance.when_ended())
@@ -135,7 +135,7 @@ class Instances:
 
     def close(self) -> None:
         """Leave the running instances to the next runner."""
-        self._closed = True
+        self.is_closed = True
         self._maintenance.stop()
         for instance in self._instances.values():
             instance.detach()
@@ -170,7 +170,7 @@ class Instances:
         if instance is not None and instance.state is State.ENDED:
             del self._instances[name]
             self.on_end(instance)
-            if not self._closed:
+            if not self.is_closed:
                 self._maintenance.prune()
         self._on_change()
 

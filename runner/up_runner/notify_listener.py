@@ -19,13 +19,15 @@ MAX_BYTES = 4096
 _PORT = re.compile(r"([a-z][a-z0-9_]{0,31}):([1-9][0-9]{0,4})", re.ASCII)
 _MAX_PORTS = 16
 _MAX_STATUS = 200
+_FLAGS = {"1": True, "0": False}
 
 
 @dataclass(frozen=True, slots=True)
 class Notification:
     """One datagram; a missing field is None or False.
 
-    `ports` are TCP or UDP ports by purpose, `phone`: the phone is connected.
+    `ports` are TCP or UDP ports by purpose, `phone`: the phone is connected, `armed`: the aircraft
+    is armed or may be in flight.
     """
 
     ready: bool = False
@@ -34,12 +36,13 @@ class Notification:
     status: str | None = None
     ports: Mapping[str, int] | None = None
     phone: bool | None = None
+    armed: bool | None = None
 
 
 def parse(datagram: bytes) -> Notification:
     """Parse a datagram; unknown or malformed fields are left out.
 
-    Source: sd_notify(3) for READY, WATCHDOG, STOPPING and STATUS; X_UP_PORTS and X_UP_PHONE are
+    Source: sd_notify(3) for READY, WATCHDOG, STOPPING and STATUS; those that begin with X_UP_ are
     additions. Never raises.
     """
     fields: dict[str, str] = {}
@@ -53,7 +56,8 @@ def parse(datagram: bytes) -> Notification:
         stopping=fields.get("STOPPING") == "1",
         status=_status(fields.get("STATUS")),
         ports=_ports(fields.get("X_UP_PORTS")),
-        phone={"1": True, "0": False}.get(fields.get("X_UP_PHONE", "")),
+        phone=_FLAGS.get(fields.get("X_UP_PHONE", "")),
+        armed=_FLAGS.get(fields.get("X_UP_ARMED", "")),
     )
 
 

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+
+from up_runner.response import Problem
+
+ASLEEP = "asleep"
+"""The code of an instance that sleeps until the next request for its aircraft."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +28,7 @@ class Policy:
 
     `exit_delay_s` None: a lost phone never stops it. `always_restart`: it may be in flight, so it
     restarts after any exit status. It is not ready before it has announced its `needed_ports`.
+    `sleeps`: after `exit_delay_s` it sleeps, and only while it reports that it is not armed.
     """
 
     start_limit_s: float
@@ -31,6 +38,29 @@ class Policy:
     restarts: RestartPolicy
     always_restart: bool
     needed_ports: tuple[str, ...] = ()
+    sleeps: bool = False
+
+    def unbound(self, ports: Mapping[str, int], found: frozenset[int] | None) -> list[str]:
+        """Return the ports that are missing: not announced, or not among those of the kernel."""
+        missing = [name for name in self.needed_ports if name not in ports]
+        if found is not None:
+            missing += [f"{name} {port}" for name, port in ports.items() if port not in found]
+        return missing
+
+    def late_start(self, unbound: Sequence[str]) -> Problem:
+        """Return the problem of a start that reached its limit; `unbound` of one that was ready."""
+        limit = f"within {self.start_limit_s:g} s"
+        if unbound:
+            text = f"Raspilot reported ready but has not bound its port {unbound[0]} {limit}"
+            return Problem("port_not_bound", text)
+        return Problem("not_ready", f"Raspilot did not report ready {limit}")
+
+    def hung(self) -> Problem:
+        return Problem("hung", f"Raspilot hung: no sign of life for {self.watchdog_s:g} s")
+
+    def phone_gone(self) -> Problem:
+        code = ASLEEP if self.sleeps else "phone_gone"
+        return Problem(code, f"its phone was gone for {self.exit_delay_s:g} s")
 
 
 class Backoff:

@@ -29,7 +29,7 @@ from up_cluster.config import ClusterError
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import Application, InstanceHost
-from up_runner.instances import Instances
+from up_runner.instances import STOPPING, Instances
 from up_runner.key_starts import KeyStarts
 from up_runner.log_keeper import LogKeeper
 from up_runner.metrics import figures_of
@@ -176,7 +176,7 @@ class Runner:
             return text_of([*figures_of(self.instances, self.server), *pool])
 
         try:
-            self._metrics_port = serve_metrics(self._reactor, port, page)
+            self._metrics_port = serve_metrics(self._reactor, port, page, self._unready_code)
         except CannotListenError as error:
             self._port.stopListening()
             self._run_folder.release()
@@ -184,6 +184,12 @@ class Runner:
             raise CannotStart("cannot_listen", text) from None
         port = self._metrics_port.getHost().port
         self._log.info("metrics page on port {port}", code="metrics_open", port=port)
+
+    def _unready_code(self) -> str:
+        """Return why it accepts no new instance; empty: it does, here or elsewhere in the pool."""
+        if self.instances.is_closed:
+            return STOPPING.code
+        return "" if self._pool is None else self._pool.unready_code()
 
     def _new_pool(self) -> Pool:
         from up_runner.pool.pool import Pool
@@ -333,13 +339,13 @@ def policy_of(config: RunnerConfig) -> Policy:
     Only a black box stops with its phone or after failures: the others may be in flight.
     """
     black_box = config.mode == "black box"
-    restarts = config.restarts
+    restarts, pool = config.restarts, config.pool
+    exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
+    sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
     return Policy(
         start_limit_s=config.start_limit_s,
         watchdog_s=config.watchdog_s or None,
-        exit_delay_s=(
-            config.exit_delay_s if black_box and config.exit_on_connection_lost else None
-        ),
+        exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
         kill_delay_s=KILL_DELAY_S,
         restarts=RestartPolicy(
             restarts.delay_s,
@@ -350,4 +356,5 @@ def policy_of(config: RunnerConfig) -> Policy:
         always_restart=not black_box,
         # Without this port no phone can reach it.
         needed_ports=("general",) if black_box else (),
+        sleeps=sleeps,
     )

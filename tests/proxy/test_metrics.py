@@ -13,6 +13,7 @@ from twisted.internet.testing import StringTransport
 from twisted.python.failure import Failure
 
 from tests.proxy.program import Client, Program, accepted, until
+from tests.support.scrape import probe
 from up.system.metrics_page import (
     CONNECTION_LIMIT_S,
     CONTENT_TYPE,
@@ -92,6 +93,11 @@ HUGE = b"x" * 20_000_000
         (HEAD.replace(b"localhost", b"127.0.0.1:9303") + b"\r\n", 200),
         (HEAD.replace(b"localhost", b"[::1]:9303") + b"\r\n", 200),
         (HEAD.replace(b"/metrics", b"/other") + b"\r\n", 404),
+        (
+            HEAD.replace(b"/metrics", b"/ready").replace(b"localhost", b"evil.example") + b"\r\n",
+            421,
+        ),
+        (HEAD.replace(b"/metrics", b"/live").replace(b"GET", b"POST") + b"\r\n", 405),
         # DNS rebinding: the page of another site whose name points here.
         (HEAD.replace(b"localhost", b"evil.example") + b"\r\n", 421),
         (HEAD.replace(b"localhost", b"localhost.evil.example") + b"\r\n", 421),
@@ -123,6 +129,12 @@ def test_every_request_is_answered_once_and_the_connection_ends(local_page, requ
 def local_page(tmp_path_factory):
     with Program(tmp_path_factory.mktemp("page")) as proxy:
         yield proxy
+
+
+def test_health_without_a_cluster(local_page):
+    port = local_page.metrics_port
+    assert probe(port, "live") == (200, "live")
+    assert probe(port, "ready") == (200, "ready")
 
 
 def test_a_slow_request_ends_after_the_limit_however_it_drips():

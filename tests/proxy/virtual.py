@@ -5,7 +5,7 @@ import time
 
 from twisted.internet import task
 
-from up_proxy.config import LimitsConfig, ProxyConfig, TLSConfig
+from up_proxy.config import LimitsConfig, ProxyConfig, QuotaConfig, TLSConfig
 from up_proxy.proxy import Proxy
 
 DEADLINE_S = 20.0
@@ -82,7 +82,7 @@ class Peer:
 class Bench:
     """A proxy between two free ports; `pump` lets it work, `pass_time` moves its clock."""
 
-    def __init__(self, i_accept_plain=False, tls=None, **limits):
+    def __init__(self, i_accept_plain=False, tls=None, quota=None, **limits):
         self.reactor = HandReactor()
         self.peers = []
         config = ProxyConfig(
@@ -93,6 +93,7 @@ class Bench:
             i_accept_plain=i_accept_plain,
             limits=LimitsConfig(**limits),
             tls=tls or TLSConfig(),
+            quota=QuotaConfig(**(quota or {})),
         )
         self.proxy = Proxy(self.reactor, config)
         self.proxy._poller.busy_poll_s = 0.001

@@ -1,5 +1,6 @@
 """runner.yml and its meaning."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from up.config import ConfigErrors
 from up_runner.config import RUNNER, RunnerConfig
 from up_runner.paths import Paths, own_root
+from up_runner.pool_config import PoolConfig
 from up_runner.runner import policy_of
 
 HERE = Path("runner.yml")
@@ -49,6 +51,15 @@ def test_only_a_black_box_stops_with_its_phone_or_is_given_up():
         policy = policy_of(RunnerConfig(mode=mode))
         assert policy.exit_delay_s is None and policy.always_restart
         assert policy.restarts.limit is None
+    pool = PoolConfig(servers="nats://a", address="here")
+    in_pool = RunnerConfig(pool=pool, exit_on_connection_lost=False)
+    sleeper = policy_of(in_pool)
+    assert (sleeper.sleeps, sleeper.exit_delay_s) == (True, 4 * 3600)
+    assert not policy_of(replace(in_pool, exit_on_connection_lost=True)).sleeps
+    assert not policy_of(replace(in_pool, pool=replace(pool, sleep_after_s=0))).sleeps
+    for mode in ("flight controller", "auto"):
+        policy = policy_of(replace(in_pool, mode=mode))
+        assert not policy.sleeps and policy.exit_delay_s is None
     assert policy_of(RunnerConfig(watchdog_s=0)).watchdog_s is None
 
 

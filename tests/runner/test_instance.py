@@ -122,6 +122,34 @@ def test_a_failed_preparation_is_the_outcome(host, error, code):
     assert instance.state is State.ENDED and host.children == []
 
 
+def test_it_sleeps_after_hours_without_its_phone_and_never_while_it_may_be_armed(host):
+    hours_s = 4 * 3600.0
+    policy = replace(BLACK_BOX, exit_delay_s=hours_s, watchdog_s=None, sleeps=True)
+    instance = host.run(policy)
+    # It has not reported whether it is armed.
+    host.clock.advance(2 * hours_s)
+    host.say(armed=True)
+    host.clock.advance(2 * hours_s)
+    host.say(armed=False, phone=True)
+    host.clock.advance(2 * hours_s)
+    host.say(phone=False)
+    host.clock.advance(hours_s - 1)
+    host.say(armed=True)
+    host.clock.advance(2)
+    assert instance.state is State.RUNNING
+    host.say(armed=False)
+    host.clock.advance(hours_s - 1)
+    # The report is still in the socket when the time is over.
+    host.waiting.append((host.child.pid, Notification(armed=True)))
+    host.clock.advance(2)
+    assert instance.state is State.RUNNING
+    host.say(armed=False)
+    host.clock.advance(hours_s)
+    assert (instance.state, host.child.signals) == (State.STOPPING, ["TERM"])
+    host.child.on_end(0)
+    assert instance.last_end.code == "asleep"
+
+
 def test_the_exit_delay_of_minutes_runs_only_while_the_phone_is_gone(host):
     instance = host.run()
     host.live(59)

@@ -1,7 +1,7 @@
 """The runner's page for Prometheus."""
 
 from tests.runner.runners import can_connect
-from tests.support.scrape import scrape
+from tests.support.scrape import probe, scrape
 
 
 def test_a_scrape_has_the_instances_and_the_rejections(runners):
@@ -16,5 +16,7 @@ def test_a_scrape_has_the_instances_and_the_rejections(runners):
     assert read["up_runner_running", "kite"] == 1
     assert read["up_runner_connections",] == 1
     assert read["up_runner_rejected_total", "malformed"] == 1
+    assert probe(port, "live") == (200, "live")
+    assert probe(port, "ready") == (200, "ready")
     runner.terminate()
     assert not can_connect(port)

@@ -112,6 +112,7 @@ def test_the_fields_of_sd_notify_and_the_additions():
     assert parse(b"WATCHDOG=1\nX_UP_PHONE=1") == Notification(alive=True, phone=True)
     assert parse(b"STOPPING=1") == Notification(stopping=True)
     assert parse(b"X_UP_PHONE=0\n") == Notification(phone=False)
+    assert parse(b"X_UP_ARMED=1\n") == Notification(armed=True)
     assert parse(b"X_UP_PORTS=general:50001 orientation:50000").ports == {
         "general": 50001,
         "orientation": 50000,
@@ -126,6 +127,7 @@ def test_malformed_fields_are_left_out():
         b"READY=0",
         b"READY",
         b"X_UP_PHONE=2",
+        b"X_UP_ARMED=yes",
         b"X_UP_PORTS=general",
         b"X_UP_PORTS=general:0",
         b"X_UP_PORTS=general:65536",

@@ -66,7 +66,7 @@ class NatsServers:
     `prefixes`: a command for each server that runs it in a network namespace, with its `hosts`.
     """
 
-    def __init__(self, folder, count=3, more="", hosts=None, prefixes=None):
+    def __init__(self, folder, count=3, more="", hosts=None, prefixes=None, *, jetstream=True):
         self.folder = Path(folder)
         self.program = nats_server()
         self.hosts = hosts or ["127.0.0.1"] * count
@@ -90,6 +90,8 @@ class NatsServers:
             )
             if count == 1:
                 text = text[: text.index("cluster {")] + text[text.index("\n}\n") + 3 :]
+            if not jetstream:
+                text = "\n".join(each for each in text.splitlines() if "jetstream" not in each)
             (self.folder / f"nats{number}.conf").write_text(text, encoding="utf-8")
 
     @property

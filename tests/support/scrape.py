@@ -1,5 +1,7 @@
-"""A scrape of a metrics page, as Prometheus does it."""
+"""A scrape of a metrics page as Prometheus does it, and a probe as Kubernetes does it."""
 
+import json
+import urllib.error
 import urllib.request
 
 from prometheus_client.parser import text_string_to_metric_families
@@ -14,3 +16,12 @@ def scrape(port):
         for family in text_string_to_metric_families(text)
         for sample in family.samples
     }
+
+
+def probe(port, page):
+    """Return the status and the code of `live` or `ready`."""
+    try:
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/{page}", timeout=20) as answer:
+            return answer.status, json.load(answer)["code"]
+    except urllib.error.HTTPError as error:
+        return error.code, json.load(error)["code"]

@@ -26,6 +26,7 @@ def build_up(
     mode: Mode = Mode.AUTO,
     config: Mapping[str, str] | None = None,
     builtins: bool = True,
+    instance: str = "",
 ) -> Up:
     """Return an initialized Up of these classes and, by default, the built-in ones."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -35,7 +36,7 @@ def build_up(
         reactor.callFromThread = lambda call, *args: reactor.callLater(0, call, *args)
         # A Clock is not thread-safe: work with the disk is done immediately.
         reactor.start_thread = lambda work: work()
-    context = Context(reactor, mode, folder)
+    context = Context(reactor, mode, folder, instance=instance)
     found = Discovered()
     for cls in modules:
         found.add(cls, "test")

@@ -19,8 +19,8 @@ HELLO_MAX_BYTES = 512
 """Maximum length of a hello, its LF included."""
 
 MALFORMED, TAKEN, FULL, ADDRESS, TOKEN = "malformed", "taken", "full", "address", "token"
-NAME, CLUSTER = "name", "cluster"
-CODES = (MALFORMED, TAKEN, FULL, ADDRESS, TOKEN, NAME, CLUSTER)
+NAME, CLUSTER, QUOTA = "name", "cluster", "quota"
+CODES = (MALFORMED, TAKEN, FULL, ADDRESS, TOKEN, NAME, CLUSTER, QUOTA)
 """The codes of refusals."""
 
 _TOKEN = re.compile(r"[0-9A-Fa-f]{32,64}", re.ASCII)

@@ -1,7 +1,9 @@
-"""Serves a page of metrics to the local machine, in the text format of Prometheus."""
+"""Serves metrics in the text format of Prometheus, and the health, to the local machine."""
 
+import json
 from collections.abc import Callable
-from typing import Any
+from http import HTTPStatus
+from typing import Any, NamedTuple
 
 from twisted.internet.protocol import connectionDone
 from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
@@ -25,28 +27,50 @@ MISDIRECTED_REQUEST = 421
 _TOO_LARGE = b"HTTP/1.1 431 Request Header Fields Too Large\r\nConnection: close\r\n\r\n"
 
 
-class MetricsPage(Resource):
-    """The page at /metrics."""
+class Answer(NamedTuple):
+    """The answer of a page."""
+
+    content_type: str
+    text: str
+    status: int = HTTPStatus.OK
+
+
+class LocalPage(Resource):
+    """A page of a program, for its own machine."""
 
     isLeaf = True  # noqa: N815 - Twisted's name
 
-    def __init__(self, page: Callable[[], str]) -> None:
+    def __init__(self, answer: Callable[[], Answer]) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
-        self._page = page
+        self._answer = answer
 
     def render_GET(self, request: Request) -> bytes:  # noqa: N802 - Twisted's name
-        """Return the current metrics; refuses a Host that does not name this machine."""
+        """Return the current answer; refuses a Host that does not name this machine."""
         hosts = request.requestHeaders.getRawHeaders("Host", [])
         if len(hosts) != 1 or not names_this_machine(hosts[0], {"localhost"}):
             request.setResponseCode(MISDIRECTED_REQUEST, b"Misdirected Request")
             return b"open this page as localhost or by its address\n"
-        request.setHeader("Content-Type", CONTENT_TYPE)
-        return self._page().encode("utf-8")
+        answer = self._answer()
+        request.setResponseCode(answer.status)
+        request.setHeader("Content-Type", answer.content_type)
+        return answer.text.encode("utf-8")
 
     def render_HEAD(self, request: Request) -> bytes:  # noqa: N802 - Twisted's name
         """Return no body, which Twisted would report for each request."""
         self.render_GET(request)
         return b""
+
+
+def health(code: str, status: int = HTTPStatus.OK) -> Answer:
+    """Return the answer of a health page, a JSON object with a code."""
+    return Answer("application/json", json.dumps({"code": code}) + "\n", status)
+
+
+def readiness(unready_code: str) -> Answer:
+    """Return the answer of `/ready`: status 503 for a code."""
+    if unready_code:
+        return health(unready_code, HTTPStatus.SERVICE_UNAVAILABLE)
+    return health("ready")
 
 
 class OnlyRequest(SiteRequest):
@@ -90,9 +114,14 @@ class MetricsFactory(WrappingFactory):
     protocol = MetricsConnection
     noisy = False
 
-    def __init__(self, clock: Clock, page: Callable[[], str]) -> None:
+    def __init__(
+        self, clock: Clock, page: Callable[[], str], unready_code: Callable[[], str] | None = None
+    ) -> None:
         root: Any = Resource()
-        root.putChild(b"metrics", MetricsPage(page))
+        root.putChild(b"metrics", LocalPage(lambda: Answer(CONTENT_TYPE, page())))
+        if unready_code is not None:
+            root.putChild(b"live", LocalPage(lambda: health("live")))
+            root.putChild(b"ready", LocalPage(lambda: readiness(unready_code())))
         make: Any = Site
         site = make(root, requestFactory=OnlyRequest, timeout=None)
         site.displayTracebacks = False
@@ -112,9 +141,15 @@ class MetricsFactory(WrappingFactory):
         self.protocols.pop(p, None)
 
 
-def serve_metrics(reactor: Any, port: int, page: Callable[[], str]) -> Any:
+def serve_metrics(
+    reactor: Any,
+    port: int,
+    page: Callable[[], str],
+    unready_code: Callable[[], str] | None = None,
+) -> Any:
     """Serve `page()` at http://127.0.0.1:port/metrics and return the listening port.
 
-    Raises CannotListenError.
+    `unready_code()` returns why the program accepts no new work, or an empty text: with it there
+    are also /live and /ready. Raises CannotListenError.
     """
-    return reactor.listenTCP(port, MetricsFactory(reactor, page), interface=HOST)
+    return reactor.listenTCP(port, MetricsFactory(reactor, page, unready_code), interface=HOST)

@@ -14,10 +14,10 @@ from twisted.python.failure import Failure
 
 from up.errors import UserError
 from up_cluster.config import ClusterConfig
-from up_cluster.jetstream import JetStreamError
+from up_cluster.jetstream import NOT_ENABLED, STREAM_NOT_FOUND, JetStreamError
 from up_cluster.key_value import Entry
 from up_cluster.lease import parse_record
-from up_cluster.membership import Membership, aircraft_of, parse
+from up_cluster.membership import LEASES, Membership, aircraft_of, parse
 from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.nats_protocol import Message
 
@@ -44,9 +44,20 @@ def report_in(payload: bytes) -> dict[str, Any] | None:
     rows, is_draining = report.get("aircraft"), report.get("is_draining")
     if not (all(isinstance(each, str) for each in names) and isinstance(is_draining, bool)):
         return None
-    if not (isinstance(rows, list) and all(isinstance(each, dict) for each in rows)):
+    guests = report.get("guests", [])
+    if not (isinstance(rows, list) and isinstance(guests, list)):
         return None
-    return report if all({"aircraft", "state"} <= row.keys() for row in rows) else None
+    is_row = (
+        isinstance(row, dict) and {"aircraft", "state"} <= row.keys() for row in rows + guests
+    )
+    return report if all(is_row) else None
+
+
+def numbers_in(report: dict[str, Any], key: str) -> dict[str, float]:
+    """Return the numbers by kind in a report; a member of another version may have none."""
+    found = report.get(key)
+    pairs = found.items() if isinstance(found, dict) else ()
+    return {kind: value for kind, value in pairs if isinstance(value, int | float)}
 
 
 class Fleet:
@@ -73,6 +84,7 @@ class Fleet:
                 if not self._client.is_connected:
                     text = f"no connection to NATS at {self._config.servers} (fleet.yml: servers)"
                     raise FleetError(text, "no_connection")
+                await self._check()
                 return await work()
             except (NatsUnavailableError, JetStreamError) as error:
                 raise FleetError(str(error), "no_answer") from None
@@ -91,9 +103,30 @@ class Fleet:
             result[0].raiseException()
         return result[0]
 
+    async def _check(self) -> None:
+        """Raise FleetError for a NATS that no proxy or runner of a cluster uses."""
+        where = f"NATS at {self._config.servers}"
+        try:
+            await self._member.bucket.check()
+        except (NatsUnavailableError, JetStreamError) as error:
+            if error.code in ("no_responders", *NOT_ENABLED):
+                text = (
+                    f"{where} has no JetStream for this account (nats.conf: jetstream, accounts; "
+                    "fleet.yml: credentials)"
+                )
+                raise FleetError(text, "no_jetstream") from None
+            if error.code == STREAM_NOT_FOUND:
+                text = (
+                    f"{where} has no bucket {LEASES}: no proxy or runner has used it yet, or they "
+                    "use another account (fleet.yml: servers, credentials)"
+                )
+                raise FleetError(text, "no_bucket") from None
+            raise
+
     async def overview(self, wait_s: float) -> dict[str, Any]:
         """Return the members that answered in time, and the entries of those that did not."""
         leases, wanted = await self._leases(), await self._keys("wanted")
+        asleep = await self._keys("asleep")
         members = await self._reports(wait_s, leases)
         known = {each["id"] for each in members}
         held = {row["aircraft"] for row in leases if row["kind"] == "instance"}
@@ -101,7 +134,24 @@ class Fleet:
             "members": members,
             "lost": [row for row in leases if row["id"] not in known],
             "orphans": sorted(set(wanted) - held),
+            "asleep": sorted(set(asleep) - set(wanted)),
         }
+
+    async def usage(self, wait_s: float) -> dict[str, Any]:
+        """Return the overview, and the tenant's usage and quotas.
+
+        Each member knows the whole tenant, a new one a part of the hour: the highest counts. Of
+        different quotas the lowest is the one that refuses.
+        """
+        found = await self.overview(wait_s)
+        usage: dict[str, float] = {}
+        quota: dict[str, float] = {}
+        for member in found["members"]:
+            for kind, count in numbers_in(member, "usage").items():
+                usage[kind] = max(count, usage.get(kind, count))
+            for kind, limit in numbers_in(member, "quota").items():
+                quota[kind] = min(limit, quota.get(kind, limit))
+        return {**found, "tenant": {"name": self._config.tenant, "usage": usage, "quota": quota}}
 
     async def where(self, aircraft: str, wait_s: float) -> dict[str, Any]:
         """Return the members that hold an aircraft. Raises FleetError without one."""
@@ -117,6 +167,9 @@ class Fleet:
             place = {"id": lease["id"], "host": member.get("host", lease["host"])}
             places.append({**row, "kind": KINDS[lease["kind"]], **place})
         if not places:
+            if aircraft in await self._keys("asleep"):
+                text = f"{aircraft} sleeps: the next request of its phone starts it"
+                raise FleetError(text, "asleep", aircraft=aircraft)
             raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
         return {"aircraft": aircraft, "places": places}
 
@@ -142,11 +195,11 @@ class Fleet:
                 await self._ask(lease["id"], {"action": "kick", "aircraft": aircraft})
                 done = "stopped" if kind == "instance" else "disconnected"
                 return {"aircraft": aircraft, "done": done, "id": lease["id"]}
-        entry = (await self._keys("wanted")).get(aircraft) if kind == "instance" else None
-        if entry is None:
-            raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
-        await self._member.bucket.purge(entry.key, expected=entry.revision)
-        return {"aircraft": aircraft, "done": "not_wanted", "id": ""}
+        for key in ("wanted", "asleep") if kind == "instance" else ():
+            if (entry := (await self._keys(key)).get(aircraft)) is not None:
+                await self._member.bucket.purge(entry.key, expected=entry.revision)
+                return {"aircraft": aircraft, "done": "not_wanted", "id": ""}
+        raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
 
     async def _ask(self, member: str, request: dict[str, Any]) -> dict[str, Any]:
         try:

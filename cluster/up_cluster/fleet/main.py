@@ -39,7 +39,7 @@ EPILOG = """\
 examples:
   up-fleet list                    every member, with what it holds
   up-fleet where glider-1          its relay node and the host of its instance
-  up-fleet usage                   CPU and memory of members and instances
+  up-fleet usage                   of members, aircraft, and of the tenant's quotas
   up-fleet drain 3f9a0c27b1d4      before maintenance: its aircraft go elsewhere
   up-fleet kick glider-1           disconnects it and frees its name and control
   up-fleet kick glider-1 --instance  stops its instance; it does not start again
@@ -69,8 +69,8 @@ def make_parser() -> OptionParser:
     add("list", "list the members and their aircraft", lambda f, o: f.overview(o.wait), list_table)
     where = add("where", "show where an aircraft is", _where, aircraft_table)
     where.add_argument("aircraft", type=_aircraft, metavar="AIRCRAFT")
-    usage = "show CPU time and memory of members and aircraft"
-    add("usage", usage, lambda f, o: f.overview(o.wait), usage_table)
+    usage = "show CPU time, memory, data of members and aircraft, and the tenant's quotas"
+    add("usage", usage, lambda f, o: f.usage(o.wait), usage_table)
     drain = add("drain", "let the aircraft of a member go elsewhere, and wait", _drain, _show_drain)
     drain.add_argument("member", type=_member, metavar="MEMBER", help="its id in 'up-fleet list'")
     drain.set_defaults(wait=60.0)

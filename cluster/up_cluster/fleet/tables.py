@@ -17,7 +17,8 @@ def list_table(answer: dict[str, Any]) -> list[str]:
     lines = _columns(rows)
     for each in answer["lost"]:
         lines.append(f"{each['aircraft']}: {each['kind']} of {each['id']}, which does not answer")
-    return [*lines, *(f"{name}: wanted, no runner has it" for name in answer["orphans"])]
+    lines += [f"{name}: wanted, no runner has it" for name in answer["orphans"]]
+    return [*lines, *(f"{name}: asleep until its next request" for name in answer["asleep"])]
 
 
 def aircraft_table(answer: dict[str, Any]) -> list[str]:
@@ -30,13 +31,19 @@ def aircraft_table(answer: dict[str, Any]) -> list[str]:
 
 
 def usage_table(answer: dict[str, Any]) -> list[str]:
-    """Return the CPU time and memory of members, and of the aircraft at each."""
-    rows = [("MEMBER", "AIRCRAFT", "STATE", "CPU s", "MB", "RX MB")]
+    """Return what members and the aircraft at each use, and the tenant's sums and quotas."""
+    rows = [("MEMBER", "AIRCRAFT", "STATE", "CPU s", "MB", "RX MB", "GROUNDS")]
     for each in answer["members"]:
-        rows.append((each["id"], "", each["kind"], *_usage(each)))
-        for craft in each["aircraft"]:
-            rows.append(("", craft["aircraft"], craft["state"], *_usage(craft)))
-    return _columns(rows)
+        rows.append((each["id"], "", each["kind"], *_usage(each), ""))
+        for craft in (*each["aircraft"], *each.get("guests", ())):
+            grounds = str(craft.get("grounds", ""))
+            rows.append(("", craft["aircraft"], craft["state"], *_usage(craft), grounds))
+    tenant = answer["tenant"]
+    sums = [("TENANT", "KIND", "USED", "QUOTA")]
+    for kind, count in tenant["usage"].items():
+        limit = tenant["quota"].get(kind)
+        sums.append((tenant["name"], kind, f"{count:g}", "" if limit is None else f"{limit:g}"))
+    return [*_columns(rows), "", *_columns(sums)]
 
 
 def _usage(row: dict[str, Any]) -> tuple[str, str, str]:

@@ -92,7 +92,9 @@ class Server(OneShotTask):
         listen = self._listen
         try:
             if self._metrics_port is not None:
-                self._metrics = serve_metrics(self._reactor, self._metrics_port, self._figures)
+                self._metrics = serve_metrics(
+                    self._reactor, self._metrics_port, self._figures, lambda: ""
+                )
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError

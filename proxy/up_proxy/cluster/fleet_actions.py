@@ -8,17 +8,23 @@ import psutil
 
 from up_cluster.membership import Action, usage_of
 from up_proxy.cluster.session import ClusterSession
+from up_proxy.tenant_quota import TenantQuota
 
 
 class FleetActions:
     """`drain` closes the ports, and leaves every aircraft to the other nodes."""
 
     def __init__(
-        self, reactor: Any, sessions: Collection[ClusterSession], drain: Callable[[], None]
+        self,
+        reactor: Any,
+        sessions: Collection[ClusterSession],
+        drain: Callable[[], None],
+        quota: TenantQuota,
     ) -> None:
         self._reactor = reactor
         self._sessions = sessions
         self._drain_node = drain
+        self._quota = quota
         self.is_draining = False
         self.actions: dict[str, Action] = {
             "report": self._report,
@@ -30,21 +36,26 @@ class FleetActions:
         return [each for each in self._sessions if each.is_home]
 
     def _report(self, message: dict[str, Any]) -> dict[str, Any]:
-        rows = [
-            {
-                "aircraft": each.name,
-                "state": "online" if each.air_lease.owner is not None else "offline",
-                "grounds": len(each.grounds.connections),
-                "rx_bytes": each.air_bytes + each.ground_bytes,
-            }
-            for each in self._homes()
-        ]
+        guests = [each for each in self._sessions if not each.is_home and each.own_grounds]
         return {
             "kind": "proxy",
             "host": socket.gethostname(),
             "is_draining": self.is_draining,
-            "aircraft": rows,
+            "aircraft": [self._row(each) for each in self._homes()],
+            "guests": [self._row(each) for each in guests],
+            "usage": self._quota.used()._asdict(),
+            "quota": self._quota.limits,
             **usage_of(psutil.Process()),
+        }
+
+    @staticmethod
+    def _row(session: ClusterSession) -> dict[str, Any]:
+        state = "online" if session.air_lease.owner is not None else "offline"
+        return {
+            "aircraft": session.name,
+            "state": state if session.is_home else "guest",
+            "grounds": session.own_grounds,
+            "rx_bytes": session.air_bytes + session.ground_bytes,
         }
 
     def _drain(self, message: dict[str, Any]) -> dict[str, Any]:

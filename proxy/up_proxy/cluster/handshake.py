@@ -1,7 +1,8 @@
 """The handshake at a node of a cluster: the aircraft's lease comes before the answer."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import replace
+from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
@@ -10,11 +11,13 @@ from up.log import UpLogger
 from up.protocols.proxy_lines import CLUSTER, FULL, Accepted, Access, Hello, HelloError, Side
 from up_cluster.jetstream import JetStreamError
 from up_cluster.nats_client import NatsUnavailableError
+from up_proxy.aircraft import AircraftSession
 from up_proxy.cluster.session import ClusterSession
 from up_proxy.connection import Connection, Owner
 from up_proxy.handshake import LEGACY_AIRCRAFT, Handshake, check_name, new_token
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
+from up_proxy.tenant_quota import TenantQuota
 
 _log = UpLogger.get_logger("proxy")
 
@@ -23,9 +26,14 @@ class ClusterHandshake(Handshake):
     """Claims an aircraft's lease before it is admitted; a ground without a home is a guest."""
 
     def __init__(
-        self, side: Side, registry: AircraftRegistry, poller: Poller, max_listeners: int
+        self,
+        side: Side,
+        registry: AircraftRegistry,
+        poller: Poller,
+        quota: TenantQuota,
+        max_listeners: int,
     ) -> None:
-        super().__init__(side, registry, poller)
+        super().__init__(side, registry, poller, quota)
         self._max_listeners = max_listeners
 
     def _admit(self, connection: Connection, hello: Hello) -> None:
@@ -36,20 +44,41 @@ class ClusterHandshake(Handshake):
             def admit(token: str) -> None:
                 super(ClusterHandshake, self)._admit(connection, replace(hello, token=token))
 
-            self._claim(session, connection, hello.token, admit, self._refuse)
+            self._wait(connection, session.claim(hello.token), admit, self._refuse)
         elif session.is_home:
             super()._admit(connection, hello)
         else:
             self._check_guests(session)
-            connection.speaks_hello = True
-            connection.reads_packed = hello.packed
-            connection.reads_attitude = hello.attitude
-            connection.token = hello.token or new_token()
-            access = hello.access or Access.COMMAND
-            connection.send(Accepted(hello.aircraft, Access.LISTEN, connection.token).encode())
-            session.guests.admit(connection, access)
-            session.guests.greet(connection)
-            session.send_list()
+            try:
+                self._take_ground(session, hello.access)
+            except HelloError as error:
+                if hello.token is None:
+                    raise
+
+                def admit_resumed(_: str) -> None:
+                    if session.is_home:
+                        super(ClusterHandshake, self)._admit(connection, hello)
+                    else:
+                        self._admit_guest(session, connection, hello)
+
+                checked = session.check_control(hello.token, error)
+                self._wait(connection, checked, admit_resumed, self._refuse)
+            else:
+                self._admit_guest(session, connection, hello)
+
+    def _admit_guest(self, session: ClusterSession, connection: Connection, hello: Hello) -> None:
+        connection.speaks_hello = True
+        connection.reads_packed = hello.packed
+        connection.reads_attitude = hello.attitude
+        connection.token = hello.token or new_token()
+        access = hello.access or Access.COMMAND
+        connection.send(Accepted(hello.aircraft, Access.LISTEN, connection.token).encode())
+        session.guests.admit(connection, access)
+        session.guests.greet(connection)
+        session.send_list()
+
+    def _take_aircraft(self, session: AircraftSession) -> None:
+        """Do nothing: its claim counted it."""
 
     def _admit_legacy(self, connection: Connection, silent: bool) -> None:
         try:
@@ -61,10 +90,11 @@ class ClusterHandshake(Handshake):
                     session.air_lease.release()
                     super(ClusterHandshake, self)._admit_legacy(connection, silent)
 
-                self._claim(session, connection, None, admit, self._refuse_legacy)
+                self._wait(connection, session.claim(None), admit, self._refuse_legacy)
                 return
             if not session.is_home:
                 self._check_guests(session)
+                self._take_ground(session, Access.COMMAND)
                 session.guests.admit(connection, Access.COMMAND)
                 session.send_list()
                 return
@@ -82,22 +112,21 @@ class ClusterHandshake(Handshake):
         if len(session.guests.connections) > self._max_listeners:
             raise HelloError(FULL, "too many grounds for this aircraft")
 
-    def _claim(
+    def _wait(
         self,
-        session: ClusterSession,
         connection: Connection,
-        token: str | None,
+        claim: Coroutine[Any, Any, str],
         admit: Callable[[str], None],
         refuse: Callable[[Connection, HelloError], None],
     ) -> None:
-        """Hold the connection until the lease is this node's, then admit or refuse it."""
+        """Hold the connection until its claim has a token, then admit or refuse it."""
         waiting = connection.owner = WaitingClient()
         connection.pause()
 
-        async def claim() -> None:
+        async def wait() -> None:
             error = None
             try:
-                claimed = await session.claim(token)
+                claimed = await claim
                 if connection.failure is None:
                     admit(claimed)
             except HelloError as refusal:
@@ -111,7 +140,7 @@ class ClusterHandshake(Handshake):
                 elif waiting.lines:
                     connection.owner.on_lines(connection, waiting.lines)
 
-        Deferred.fromCoroutine(claim()).addErrback(self._on_bug, connection)
+        Deferred.fromCoroutine(wait()).addErrback(self._on_bug, connection)
 
     def _on_bug(self, failure: Failure, connection: Connection) -> None:
         _log.failure("a claim failed on a bug", failure, code="proxy_bug")

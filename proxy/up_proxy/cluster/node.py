@@ -16,13 +16,21 @@ from up_cluster.membership import Membership, word
 from up_cluster.nats_protocol import Message
 from up_proxy.cluster.fleet_actions import FleetActions
 from up_proxy.cluster.handshake import ClusterHandshake
-from up_proxy.cluster.node_messages import Envelope, MalformedError, pack, unpack
+from up_proxy.cluster.node_messages import (
+    Envelope,
+    MalformedError,
+    encode_usage,
+    pack,
+    parse_usage,
+    unpack,
+)
 from up_proxy.cluster.poller_reactor import PollerReactor
 from up_proxy.cluster.sender_ages import SenderAges
 from up_proxy.cluster.session import ClusterSession
 from up_proxy.metrics import Metric, Samples
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
+from up_proxy.tenant_quota import TenantQuota
 
 MAX_AGE_S = 2.0
 """Older messages of other nodes are dropped."""
@@ -36,11 +44,18 @@ class ClusterNode:
     """What the sessions of this node share. The constructor raises ClusterError, TLSError."""
 
     def __init__(
-        self, reactor: Any, poller: Poller, config: ClusterConfig, folder: Path, max_listeners: int
+        self,
+        reactor: Any,
+        poller: Poller,
+        config: ClusterConfig,
+        folder: Path,
+        max_listeners: int,
+        quota: TenantQuota,
     ) -> None:
         self._reactor = reactor
         self._poller = poller
         self._max_listeners = max_listeners
+        self.quota = quota
         self._sessions: set[ClusterSession] = set()
         self._member = Membership(
             reactor,
@@ -52,7 +67,7 @@ class ClusterNode:
         self._member.on_connected = self._on_connected
         self._member.on_ready = self._on_ready
         self.id = self._member.id
-        self._fleet = FleetActions(reactor, self._sessions, self.drain)
+        self._fleet = FleetActions(reactor, self._sessions, self.drain, quota)
         self._member.actions.update(self._fleet.actions)
         self.on_drain: Callable[[], object] = lambda: None
         self.leases = self._member.leases
@@ -64,6 +79,11 @@ class ClusterNode:
         self.stale = 0
         self.fenced = 0
         self._malformed = 0
+
+    @property
+    def is_ready(self) -> bool:
+        """Return whether leases can be had."""
+        return self._member.is_ready
 
     def start(self) -> None:
         self._client.subscribe(self._member.subject("nodes"), self._on_heartbeat)
@@ -94,7 +114,7 @@ class ClusterNode:
         self._sessions.discard(session)
 
     def new_handshake(self, side: Side, registry: AircraftRegistry) -> ClusterHandshake:
-        return ClusterHandshake(side, registry, self._poller, self._max_listeners)
+        return ClusterHandshake(side, registry, self._poller, self.quota, self._max_listeners)
 
     def subject(self, aircraft: str) -> str:
         return self._member.subject(word(aircraft))
@@ -159,14 +179,16 @@ class ClusterNode:
 
     def _on_heartbeat(self, message: Message) -> None:
         try:
-            self._is_stale(unpack(message.payload))
+            envelope = unpack(message.payload)
+            if not self._is_stale(envelope) and envelope.body:
+                self.quota.on_heartbeat(envelope.node, parse_usage(envelope.body))
         except MalformedError:
             self._malformed += 1
 
     def _beat(self) -> None:
         self._timer = self._reactor.callLater(HEARTBEAT_S, self._beat)
         self._ages.forget(self._reactor.seconds())
-        self.send(self._member.subject("nodes"), 0, 0, b"")
+        self.send(self._member.subject("nodes"), 0, 0, encode_usage(self.quota.own))
 
     def _on_connected(self, is_connected: bool) -> None:
         if not is_connected:

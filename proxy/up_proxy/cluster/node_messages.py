@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from up.protocols.proxy_lines import Access
+from up_proxy.tenant_quota import Usage
 
 MAX_NUMBER = 2**53
 _HEADER = re.compile(rb"([!-~]{1,32}) ([0-9]{1,16}) ([0-9]{1,16}) ([0-9]{1,16})\n")
@@ -104,6 +105,20 @@ def parse(body: bytes) -> GroundList | Beacon | GroundLine:
         known = {str(node): list(map(_number, each)) for node, each in fields["known"].items()}
         return Beacon(bool(fields["online"]), None if owner is None else _number(owner), known)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise MalformedError(str(error)) from None
+
+
+def encode_usage(usage: Usage) -> bytes:
+    """Return the body of a heartbeat."""
+    return _encode(usage._asdict())
+
+
+def parse_usage(body: bytes) -> Usage:
+    """Return what a heartbeat states. Raises MalformedError."""
+    try:
+        fields = json.loads(body)
+        return Usage(*(_number(fields[kind]) for kind in Usage._fields))
+    except (ValueError, TypeError, KeyError, RecursionError) as error:
         raise MalformedError(str(error)) from None
 
 

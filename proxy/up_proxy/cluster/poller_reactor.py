@@ -57,6 +57,18 @@ class PollerReactor:
             handler.is_writing = False
             self._watch(handler)
 
+    def write_to(self, transport: Any, data: bytes) -> None:
+        """Write to a transport; if nothing waits in it, without its buffers."""
+        handler = self._handlers.get(transport)
+        if handler is None or handler.events != READ:
+            transport.write(data)
+            return
+        sent = transport.writeSomeData(data)
+        if isinstance(sent, Exception):
+            self._reactor.callLater(0, handler.lose, sent)
+        elif sent < len(data):
+            transport.write(data[sent:])
+
     def removeWriter(self, descriptor: Any) -> None:  # noqa: N802 - Twisted's name
         self._change(descriptor, 0, WRITE)
 
@@ -98,13 +110,13 @@ class _Descriptor:
         if why is None and events & (WRITE | _BROKEN) and self.events & WRITE:
             why = self.descriptor.doWrite()
         if why is not None:
-            self._lose(why)
+            self.lose(why)
 
     def write(self) -> None:
         why = self.descriptor.doWrite()
         if why is not None:
             # The writer may be busy.
-            self._reactor.callLater(0, self._lose, why)
+            self._reactor.callLater(0, self.lose, why)
 
     def fail(self, reason: str) -> None:
         """Close the connection on which the proxy failed."""
@@ -113,6 +125,6 @@ class _Descriptor:
     def end(self) -> None:
         """Do nothing: `fail` requests no end."""
 
-    def _lose(self, why: Any) -> None:
+    def lose(self, why: Any) -> None:
         if not self.descriptor.disconnected:
             self.descriptor.connectionLost(Failure(why))

@@ -14,6 +14,7 @@ from up.protocols.proxy_lines import (
     ControlGranted,
     ControlLost,
     HelloError,
+    Side,
 )
 from up_cluster.jetstream import JetStreamError
 from up_cluster.lease import Lease, LeaseLostError, Record
@@ -66,6 +67,13 @@ class ClusterSession(AircraftSession):
     def is_home(self) -> bool:
         return self.lease is not None
 
+    @property
+    def own_grounds(self) -> int:
+        return super().own_grounds - len(self._remotes) + len(self.guests.connections)
+
+    def lacks_control(self, now_s: float) -> bool:
+        return super().lacks_control(now_s) if self.is_home else self.guests.lacks_control
+
     def is_deserted(self, now_s: float) -> bool:
         return super().is_deserted(now_s) and not self.guests.connections and not self._claims
 
@@ -95,6 +103,7 @@ class ClusterSession(AircraftSession):
                     return token
                 if not self.air_lease.is_free(self._poller.tick()):
                     raise _refusal(token)
+                self._take()
                 token = new_token()
                 await self.write(air=token)
                 if (silent := self.air_lease.owner) is not None:
@@ -104,7 +113,39 @@ class ClusterSession(AircraftSession):
         finally:
             self._claims -= 1
 
+    def _take(self) -> None:
+        quota = self._node.quota
+        quota.take(Side.AIRBORNE, is_needed=quota.was_here(self.name))
+
+    async def check_control(self, token: str, error: HelloError) -> str:
+        """Return the token if it has control of the aircraft, otherwise raise the error."""
+        self._claims += 1
+        try:
+            if (await self._lease_data()).get("control") != token:
+                raise error
+        finally:
+            self._claims -= 1
+        return token
+
+    async def _lease_data(self) -> dict[str, Any]:
+        record = await self._node.leases.read(self._node.key(self.name))
+        return {} if record is None else record.data
+
     async def _claim_from_others(self, token: str | None) -> str:
+        try:
+            self._take()
+        except HelloError:
+            # An aircraft in flight may change its node.
+            if token is None or (await self._lease_data()).get("air") != token:
+                raise
+            return await self._acquire(token)
+        try:
+            return await self._acquire(token)
+        except HelloError:
+            self._node.quota.give_back(Side.AIRBORNE)
+            raise
+
+    async def _acquire(self, token: str | None) -> str:
         fresh = new_token()
 
         def decide(record: Record | None) -> dict[str, Any]:
@@ -253,6 +294,7 @@ class ClusterSession(AircraftSession):
         remote.last_rx_s = self._poller.now_s
         if remote.failure is None and remote.paused_s is None:
             self.grounds.on_lines(remote, message.body)
+            self.ground_bytes -= len(message.body)  # counted by the node that received them
         else:
             self.rejected_lines += message.body.count(b"\n")
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from up_cluster.jetstream import JetStreamError
@@ -21,8 +23,8 @@ from up_runner.request import Request
 class PoolDirectory:
     """Follows the keys of the pool and the heartbeats of its runners.
 
-    `holders` are the runner ids by aircraft, `wanted` the requests. Both may be late: only a lease
-    decides who runs an instance. While not `is_current` they may lack entries.
+    `holders` are the runner ids by aircraft, `wanted` and `asleep` the requests. All may be late:
+    only a lease decides who runs an instance. While not `is_current` they may lack entries.
     """
 
     def __init__(self, clock: Any, member: Membership, counts: Counter[str]) -> None:
@@ -33,11 +35,12 @@ class PoolDirectory:
         self._current: set[str] = set()
         self.holders: dict[str, str] = {}
         self.wanted: dict[str, Request] = {}
+        self.asleep: dict[str, Request] = {}
         self._runners: dict[str, tuple[float, RunnerInfo]] = {}
 
     @property
     def is_current(self) -> bool:
-        return len(self._current) == 2
+        return len(self._current) == 3
 
     def start(self) -> None:
         self._member.client.subscribe(self._member.subject("runners"), self._on_heartbeat)
@@ -46,7 +49,8 @@ class PoolDirectory:
         """Begin to watch the keys, once the bucket exists."""
         if not self._watches:
             self._watch("instance", self._on_record, self.holders)
-            self._watch("wanted", self._on_wanted, self.wanted)
+            for kind, table in (("wanted", self.wanted), ("asleep", self.asleep)):
+                self._watch(kind, partial(self._on_kept, table), table)
 
     def stop(self) -> None:
         for watch in self._watches:
@@ -62,6 +66,16 @@ class PoolDirectory:
         kept = {i: (at, info) for i, (at, info) in self._runners.items() if now_s - at <= FRESH_S}
         self._runners = kept
         return [info for _, info in kept.values()]
+
+    def woken(self, request: Request) -> Request:
+        """Return a request with what a sleeping instance had, unless it names its own."""
+        kept = self.asleep.get(request.aircraft)
+        if kept is None or request.wants_configuration:
+            return request
+        labels = request.labels or kept.labels
+        return replace(
+            request, profile=kept.profile, configuration=kept.configuration, labels=labels
+        )
 
     async def refresh(self, name: str) -> None:
         """Read the holder of an aircraft: the watch may be later than a refusal."""
@@ -90,12 +104,12 @@ class PoolDirectory:
         if record is not None:
             self.holders[name] = record.node
 
-    def _on_wanted(self, entry: Entry) -> None:
+    def _on_kept(self, table: dict[str, Request], entry: Entry) -> None:
         name = aircraft_of(entry.key)
-        self.wanted.pop(name, None)
+        table.pop(name, None)
         if not entry.is_deleted:
             try:
-                self.wanted[name] = decode_request(parse(entry.value))
+                table[name] = decode_request(parse(entry.value))
             except ValueError:
                 self._counts["malformed"] += 1
 

@@ -18,14 +18,22 @@ KICKED = Problem("kicked", "it was stopped by up-fleet")
 
 
 class FleetActions:
-    """`info` describes the runner; `beat` tells the others about a change of it."""
+    """`info` describes the runner; `beat` tells the others about a change of it.
+
+    `shares`: the tenant's usage and quota.
+    """
 
     def __init__(
-        self, instances: Instances, info: Callable[[], RunnerInfo], beat: Callable[[], None]
+        self,
+        instances: Instances,
+        info: Callable[[], RunnerInfo],
+        beat: Callable[[], None],
+        shares: Callable[[], dict[str, dict[str, int]]],
     ) -> None:
         self._instances = instances
         self._info = info
         self._beat = beat
+        self._shares = shares
         self.is_draining = False
         self.actions: dict[str, Action] = {
             "report": self._report,
@@ -42,6 +50,7 @@ class FleetActions:
             "free": info.free,
             "labels": sorted(info.labels),
             "aircraft": list(self._rows()),
+            **self._shares(),
             **usage_of(psutil.Process()),
         }
 

@@ -24,6 +24,7 @@ from up_runner.instance import Instance
 from up_runner.instance_config import ConfigurationRefused
 from up_runner.instance_host import InstanceHost
 from up_runner.instances import STOPPING, Instances
+from up_runner.policy import ASLEEP
 from up_runner.pool.messages import encode_request
 from up_runner.pool.state_files import STATE_HOME, StateFiles
 from up_runner.request import Request
@@ -33,6 +34,8 @@ MARGIN_S = 0.5
 """An instance ends this much before its lease could expire."""
 SAVE_S = 1.0
 STOP_LIMIT_S = 10.0
+ASLEEP_TTL_S = 90 * 24 * 3600
+"""A sleeping instance is forgotten then; its files stay in the store."""
 DEADLINE = "deadline"
 LEASE_LOST = Problem("lease_lost", "its lease has expired or is another host's")
 MOVING = Problem("moving", "it moves to another host")
@@ -96,6 +99,9 @@ class HostedInstances:
 
     def __contains__(self, name: str) -> bool:
         return name in self._hosted
+
+    def names(self) -> set[str]:
+        return set(self._hosted)
 
     def lock(self, name: str) -> DeferredLock:
         """Return what orders the starts and ends of an aircraft's instance."""
@@ -204,11 +210,19 @@ class HostedInstances:
 
     async def _want(self, hosted: Hosted) -> None:
         """Write that the instance must run somewhere."""
-        key = self._member.key("wanted", hosted.request.aircraft)
+        hosted.wanted = await self._write("wanted", hosted.request)
+        key = self._member.key(ASLEEP, hosted.request.aircraft)
+        entry = await self._member.bucket.get(key)
+        if entry is not None and not entry.is_deleted:
+            await self._member.bucket.purge(key, expected=entry.revision)
+
+    async def _write(self, kind: str, request: Request, ttl_s: int = 0) -> int:
+        """Write a request under a key of its aircraft; return the revision."""
+        key = self._member.key(kind, request.aircraft)
         entry = await self._member.bucket.get(key)
         expected = 0 if entry is None else entry.revision
-        value = json.dumps(encode_request(hosted.request)).encode()
-        hosted.wanted = await self._member.bucket.put(key, value, expected=expected, ttl_s=0)
+        value = json.dumps(encode_request(request)).encode()
+        return await self._member.bucket.put(key, value, expected=expected, ttl_s=ttl_s)
 
     async def _adopt(self, instance: Instance) -> None:
         """Hold the lease of an instance that an earlier runner of this host started."""
@@ -236,15 +250,17 @@ class HostedInstances:
             if code != LEASE_LOST.code and hosted.wanted:
                 await self._save(hosted)
             if not (code in _STAYS_WANTED or hosted.is_orphan) and hosted.wanted:
-                await self._unwant(hosted)
+                await self._unwant(hosted, is_asleep=code == ASLEEP)
             del self._hosted[name]
             self._deadline_path(name).unlink(missing_ok=True)
             await self._member.leases.release(hosted.lease)
         await hosted.files.save_flights()
 
-    async def _unwant(self, hosted: Hosted) -> None:
+    async def _unwant(self, hosted: Hosted, *, is_asleep: bool) -> None:
         key = self._member.key("wanted", hosted.request.aircraft)
         try:
+            if is_asleep:
+                await self._write(ASLEEP, hosted.request, ASLEEP_TTL_S)
             await self._member.bucket.purge(key, expected=hosted.wanted)
         except UNAVAILABLE as error:
             text = "{key} stays: {reason}"

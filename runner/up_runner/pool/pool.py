@@ -20,6 +20,7 @@ from up_cluster.object_store import ObjectStore
 from up_runner.config import RunnerConfig
 from up_runner.instance_host import InstanceHost
 from up_runner.instances import Instances
+from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
 from up_runner.pool.fleet_actions import FleetActions
 from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
@@ -46,6 +47,7 @@ ANSWER_S = 2.0
 """For the answer of another runner, beyond the time limit of a start."""
 ID = ".pool-id"
 CLUSTER, DRAINING, INSTANCE_LIMIT = "cluster", "draining", "instance_limit"
+QUOTA = "quota"
 _log = UpLogger.get_logger("runner.pool")
 
 
@@ -83,7 +85,7 @@ class Pool:
             reactor, config, self._member, store, instances, host, self._counts
         )
         self._orphans = Orphans(self._directory, self.hosted, self._counts, self._start_orphan)
-        self._fleet = FleetActions(instances, self.info, self._beat)
+        self._fleet = FleetActions(instances, self.info, self._beat, self._shares)
         self._member.actions.update(
             start=self._on_start, request=self._on_request, **self._fleet.actions
         )
@@ -120,6 +122,8 @@ class Pool:
             elif holder is not None and holder != self.id:
                 response = await self._ask_holder(holder, request)
             elif request.action == "status":
+                if name in self._directory.asleep:
+                    return failed(name, ASLEEP, "the instance sleeps: a request starts it")
                 return Response(name)
             else:
                 response = await self._place(request)
@@ -134,18 +138,46 @@ class Pool:
         labels = frozenset(self._config.pool.labels)
         return RunnerInfo(self.id, self._config.pool.address, free, labels)
 
+    def unready_code(self) -> str:
+        """Return why the pool starts nothing by this runner; empty: it does."""
+        if self._fleet.is_draining:
+            return DRAINING
+        return "" if self._member.is_ready and self._directory.is_current else CLUSTER
+
     def figures(self) -> Iterator[Figure]:
         connected = int(self._member.client.is_connected)
         yield Figure("up_runner_pool_connected", "1 while NATS is connected.", connected)
-        others = len(self._directory.others())
-        yield Figure("up_runner_pool_runners", "Other runners heard within 3 s.", others)
+        others = self._directory.others()
+        yield Figure("up_runner_pool_runners", "Other runners heard within 3 s.", len(others))
+        free = sum(each.free for each in (self.info(), *others))
+        yield Figure("up_runner_pool_free", "Free places of all runners.", free)
         yield Figure("up_runner_pool_leases", "Instances of this runner.", len(self.hosted))
         text = "Wanted instances that no runner has."
         yield Figure("up_runner_pool_orphans", text, len(self._orphans))
-        for event in ("taken_over", "lease_lost", "state_not_saved", "malformed"):
-            text = "Orphans taken over, lost leases, unsaved states, malformed messages."
+        text = "Sleeping instances of the tenant."
+        yield Figure("up_runner_pool_asleep", text, len(self._directory.asleep))
+        for name, counts in self._shares().items():
+            for kind, count in counts.items():
+                text = "Usage of the tenant at all runners, and its quota if one is set."
+                yield Figure(f"up_runner_pool_tenant_{name}", text, count, {"kind": kind})
+        for event in ("taken_over", "lease_lost", "state_not_saved", "malformed", QUOTA):
+            text = "Orphans taken over, lost leases, unsaved states, malformed messages, refusals."
             count, labels = self._counts[event], {"event": event}
             yield Figure("up_runner_pool_events", text, count, labels, "counter")
+
+    def _names(self) -> set[str]:
+        """Return the aircraft of the tenant whose instances run or are wanted."""
+        return {*self._directory.wanted, *self._directory.holders, *self.hosted.names()}
+
+    def _shares(self) -> dict[str, dict[str, int]]:
+        """Return the tenant's usage at all runners, and the quota if it is set."""
+        limit = self._config.pool.quota_instances
+        usage = {"instances": len(self._names())}
+        return {"usage": usage, "quota": {"instances": limit} if limit else {}}
+
+    def _is_over_quota(self, name: str) -> bool:
+        limit = self._config.pool.quota_instances
+        return 0 < limit <= len(self._names() - {name})
 
     def _ranking(self, request: Request) -> list[str]:
         runners = [self.info(), *self._directory.others()]
@@ -153,6 +185,7 @@ class Pool:
 
     async def _place(self, request: Request) -> Response:
         """Let the first runner of the ranking that is able start the instance."""
+        request = self._directory.woken(request)
         needed = ", ".join(request.labels)
         text = f"no runner{needed and f' with the labels {needed}'} has a free place"
         response = failed(request.aircraft, "no_runner", text)
@@ -206,6 +239,9 @@ class Pool:
                 return self._named(await self._instances.spawn(request))
             if self._fleet.is_draining or self._is_stopped:
                 return failed(name, DRAINING, "this runner drains")
+            if not is_orphan and self._is_over_quota(name):
+                self._counts[QUOTA] += 1
+                return failed(name, QUOTA, "the tenant has used its quota of instances")
             if not self._instances.free:
                 return failed(name, INSTANCE_LIMIT, "no free place on this runner")
             try:

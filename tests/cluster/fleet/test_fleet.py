@@ -19,7 +19,16 @@ def test_a_report():
 
 
 @pytest.mark.parametrize(
-    "other", [{"id": 1}, {"host": None}, {"is_draining": 0}, {"aircraft": 1}, {"aircraft": [{}]}]
+    "other",
+    [
+        {"id": 1},
+        {"host": None},
+        {"is_draining": 0},
+        {"aircraft": 1},
+        {"aircraft": [{}]},
+        {"guests": {}},
+        {"guests": [1]},
+    ],
 )
 def test_no_report(other):
     report = {**REPORT, "aircraft": [ROW], **other}

@@ -9,6 +9,7 @@ from tests.proxy.cluster.nodes import Nodes, refusal
 from tests.runner.pool.runner_pool import RunnerPool
 from tests.runner.runners import is_alive, same_instance
 from tests.support.nats_servers import NatsServers
+from tests.support.scrape import probe
 from tests.support.waiting import until
 from up_cluster.fleet.main import main
 
@@ -17,6 +18,8 @@ ACCOUNTS = """
 accounts {
   A { jetstream: enabled, users: [ { user: a, password: one } ] }
   B { jetstream: enabled, users: [ { user: b, password: two } ] }
+  UNUSED { jetstream: enabled, users: [ { user: c, password: three } ] }
+  PLAIN { users: [ { user: d, password: four } ] }
 }
 """
 
@@ -57,7 +60,9 @@ def test_runners_are_listed_drained_and_their_instances_stopped(server, short_pa
         place = fleet.ask("where", "glider-1")["places"][0]
         assert (place["host"], place["ports"]) == (first["host"], first["ports"])
 
+        assert pool.health(host) == (200, "ready")
         assert fleet.ask("drain", row["id"])["left"] == ["glider-1"]
+        assert pool.health(host) == (503, "draining")
         assert not is_alive(first["pid"]) and host.instances() == []
         second = pool.running_at(other, "glider-1")
         assert second["host"] != first["host"]
@@ -94,8 +99,14 @@ def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, 
         # Its name is free for every aircraft, without the token.
         again, _ = nodes.aircraft(0, "glider-1")
         with again:
+            port = nodes.programs[0].metrics_port
+            assert probe(port, "ready") == (200, "ready")
             assert fleet.ask("drain", place["id"])["left"] == ["glider-1"]
             again.file.read()
+            assert [probe(port, each) for each in ("live", "ready")] == [
+                (200, "live"),
+                (503, "draining"),
+            ]
         new, _ = nodes.aircraft(1, "glider-1")
         with new:
             assert nodes.programs[0].process.poll() is None
@@ -131,6 +142,18 @@ def test_another_tenant_sees_and_changes_nothing(server, tmp_path, fleet, a):
             aircraft.say('{"three": 3}\n')
             place = fleet.ask("where", "glider-1")["places"][0]
             assert (place["id"], place["state"]) == (id_a, "online")
+
+
+@pytest.mark.parametrize(("login", "code"), [("c:three", "no_bucket"), ("d:four", "no_jetstream")])
+def test_an_account_that_no_cluster_uses(server, tmp_path, login, code):
+    text = f"replicas: 1\ncredentials: {credentials(tmp_path / 'user', login)}\n"
+    assert UpFleet(tmp_path / "fleet", server.urls, text).refused("list") == (1, [code])
+
+
+def test_a_server_without_jetstream(tmp_path):
+    with NatsServers(tmp_path, 1, jetstream=False) as server:
+        fleet = UpFleet(tmp_path / "fleet", server.urls)
+        assert fleet.refused("list") == (1, ["no_jetstream"])
 
 
 @pytest.mark.parametrize("words", ["lost", "drain glider-1", "where ../x", "kick", "list --wait 0"])

@@ -3,7 +3,7 @@
 import re
 
 from tests.ground.web.page import Serve
-from tests.support.scrape import scrape
+from tests.support.scrape import probe, scrape
 from tests.support.waiting import until
 
 
@@ -18,3 +18,5 @@ def test_a_scrape_has_each_aircrafts_link_and_telemetry(proxy, aircraft, tmp_pat
         assert read["up_ground_control", name] == 0
         assert read["up_ground_link_connections_total", name] == 1
         assert read["up_ground_pages",] == 0
+        assert probe(port, "live") == (200, "live")
+        assert probe(port, "ready") == (200, "ready")

