@@ -18,8 +18,12 @@ MAX_AIRSPEED_M_S, MAX_CLIMB_M_S, MAX_FELT_M_S2 = 200.0, 50.0, 4.0
 MAX_PITCH_SUM_DEG, MAX_THROTTLE_SUM = 12.0, 0.5
 MAX_RISEN = 0.2
 """Greatest slope of an updraft that pitch answers at once."""
-CLIMB_CHANGE_M_S2 = 1.5
-"""How fast the demanded climb changes: no faster than the motor follows."""
+CLIMB_CHANGE_M_S2 = 4.0
+"""How fast the demanded climb changes: about as fast as pitch follows. The motor follows later;
+until then the airspeed gives the energy, less than 1 m/s of it."""
+IDLE_THROTTLE, IDLE_FASTER_M_S = 0.1, 2.0
+"""Below this throttle pitch gradually tolerates an airspeed that is higher by this; not in a long
+descent, which is slower then."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
 GLIDE_MARGIN = 1.15
@@ -80,9 +84,13 @@ class EnergyControl:
         share = limited(asked_climb / config.climb_limit_m_s - 1.0, 0.0, 1.0)
         fastest = wanted + share * max(0.0, self._climb_airspeed_m_s - wanted)
         wanted_energy = wanted_climb + self._stored(airspeed, fastest)
-        wanted_stored = self._stored(airspeed, max(wanted, min(fastest, airspeed)))
         energy = climb + stored
         throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
+        # At idle near the altitude the rest of the energy, of rising air, becomes airspeed.
+        near = 2.0 + asked_climb / config.sink_limit_m_s
+        idle = limited(min(near, 1.0 - throttle / IDLE_THROTTLE), 0.0, 1.0)
+        tolerated = max(fastest, min(model.speeds.maximum_m_s, wanted + idle * IDLE_FASTER_M_S))
+        wanted_stored = self._stored(airspeed, max(wanted, min(tolerated, airspeed)))
         if state.motor_stopped:
             # A motor that pulls again, or pulled all along, is noticed by some throttle.
             throttle = min(throttle, model.throttle(model.sink_m_s(airspeed, load) + PROBE_M_S))

@@ -27,8 +27,9 @@ LIMIT_SIGMA = 5.0
 MAX_VARIANCE = 1e6
 JUMP_M, JUMP_M_S = 5.0, 15.0
 """A barometer that changes by more than this, and by this each second, has another offset."""
-OFF_M, OFF_TAU_S = 20.0, 10.0
-"""Fixes that differ by more for this long are believed instead of the barometer."""
+OFF_M, OFF_TAU_S, OFF_FIX_S = 20.0, 10.0, 1.0
+"""Fixes that differ by more for this long are believed instead of the barometer; one alone counts
+for at most a second, also after a time without fixes."""
 ALTITUDE, CLIMB, OFFSET, RECEIVER = range(4)
 
 
@@ -174,7 +175,7 @@ class VerticalFilter:
         if dt > BAROMETER_LOST_S:
             self._off_m = 0.0
         self._off_s = time_s
-        self._off_m += (error - self._off_m) * min(1.0, dt / OFF_TAU_S)
+        self._off_m += (error - self._off_m) * min(OFF_FIX_S, dt) / OFF_TAU_S
         if abs(self._off_m) <= OFF_M:
             return error
         self._shift(self._off_m)

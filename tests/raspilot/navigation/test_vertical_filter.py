@@ -109,6 +109,14 @@ def test_a_barometer_that_leaves_the_fixes_is_not_believed():
     assert level.filter.jumps > 3
 
 
+@pytest.mark.parametrize("lost_s", [4.0, 12.0, 60.0])
+def test_a_single_fix_after_a_loss_does_not_move_a_held_altitude(lost_s):
+    level = Level(fix_m=6.0).fly(60, 6.0).fly(lost_s, None)
+    assert level.fly(1, 46.0).error_m == pytest.approx(6.0, abs=1.0)
+    assert level.filter.jumps == 0
+    assert level.fly(30, 46.0).error_m == pytest.approx(46.0, abs=OFF_M), "many of them do"
+
+
 def test_high_up_the_first_fix_is_believed_although_the_barometer_was_there_before():
     level = Level(3900.0, fix_m=None)
     assert level.fly(1, 2.0).error_m == pytest.approx(2.0, abs=0.2)
