@@ -221,9 +221,7 @@ class VerticalFilter:
         p[1][1] += 0.5 * CLIMB_Q_M_S**2 * CLIMB_TAU_S * (1.0 - keep * keep)
         p[2][2] = min(p[2][2] + WEATHER_Q_M**2 * dt, MAX_VARIANCE)
 
-    def _correct(
-        self, h: tuple[float, float, float, float], innovation: float, sd: float
-    ) -> None:
+    def _correct(self, h: tuple[float, float, float, float], innovation: float, sd: float) -> None:
         h0, h1, h2, h3 = h
         column = [h0 * row[0] + h1 * row[1] + h2 * row[2] + h3 * row[3] for row in self._p]
         c0, c1, c2, c3 = column

@@ -253,7 +253,9 @@ def test_in_rising_air_at_idle_the_altitude_comes_before_the_airspeed():
     """Pitch leaves the airspeed as it is, up to 2 m/s too much; farther above it slows down."""
     airspeed_m_s = SPEEDS.cruise_m_s + 1.5
     level_deg = AirframeModel(CONFIG).level_pitch_deg(airspeed_m_s, 1.0)
-    rising = replace(PointMass().state, airspeed_m_s=airspeed_m_s, climb_m_s=1.0, pitch_deg=level_deg)
+    rising = replace(
+        PointMass().state, airspeed_m_s=airspeed_m_s, climb_m_s=1.0, pitch_deg=level_deg
+    )
     slopes_deg = []
     for above_m in (2.0, 20.0):
         demand = PathDemand(Bank(0.0), rising.altitude_m - above_m)
