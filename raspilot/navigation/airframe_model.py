@@ -46,8 +46,8 @@ class AirframeModel:
 
     def level_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
         """Return the pitch that holds the altitude: the part of the angle of attack upwards."""
-        attack_deg = self._zero_lift_deg + self._lift_deg * min(self._lift(airspeed_m_s, load), 1.0)
-        return attack_deg / load
+        lift = load * self._stall_squared / (airspeed_m_s * airspeed_m_s)
+        return (self._zero_lift_deg + self._lift_deg * (lift if lift < 1.0 else 1.0)) / load
 
     def glide_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
         """Return the pitch of a glide at this airspeed without motor."""

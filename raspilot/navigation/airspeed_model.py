@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of
+from raspilot.navigation.limits import limited
 from up.earth import GRAVITY_M_S2
 
 
@@ -51,4 +52,4 @@ class AirspeedModel:
         return speed * sine, -GRAVITY_M_S2 * (model.sink_m_s(speed, load) / speed + sine)
 
     def _limited(self, speed: float) -> float:
-        return max(self._slowest, min(self._fastest, speed))
+        return limited(speed, self._slowest, self._fastest)

@@ -38,6 +38,8 @@ MEASURED_S = 2.5
 """How long the airspeed that a fix has shown is continued by the model."""
 AIRSPEED_SENSOR_R = 0.06
 """Standard deviation, as a part and for one second, of the mean of a sensor."""
+SENSOR_FACTOR = 2.0
+"""A sensor that is wrong by this factor against the estimate is blocked, or its tube is off."""
 SENSED_S = 0.5
 """How long the airspeed of a sensor counts as measured."""
 MOVED_SD_M = 10.0
@@ -76,7 +78,7 @@ class Estimator:
 
     @property
     def rejected(self) -> dict[str, int]:
-        """Return how many fixes were rejected, by reason; ``barometer``: its jumps."""
+        """Return how many inputs were rejected, by reason; ``barometer``: its jumps."""
         jumps = self.vertical.jumps
         return {**self._gate.rejected, **({"barometer": jumps} if jumps else {})}
 
@@ -116,7 +118,12 @@ class Estimator:
         modelled_m_s = math.hypot(newest.north_m_s, newest.east_m_s)
         if abs(time_s - newest.time_s) > MAX_GAP_S or modelled_m_s <= 0.0:
             return
-        self._ratios.append(airspeed_m_s / modelled_m_s)
+        ratio, horizontal = airspeed_m_s / modelled_m_s, self._horizontal
+        known = abs(horizontal.factor) if horizontal is not None and horizontal.is_oriented else 1.0
+        if not known / SENSOR_FACTOR <= ratio <= known * SENSOR_FACTOR:
+            self._gate.rejected["airspeed"] += 1
+            return
+        self._ratios.append(ratio)
         self._sensed, self._sensed_m_s = newest, airspeed_m_s
 
     def compass(self, time_s: float, heading_deg: float) -> None:

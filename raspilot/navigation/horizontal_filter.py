@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from raspilot.navigation.air_path import AirPoint
+from raspilot.navigation.limits import limited
 
 POSITION_R_M = 2.0
 VELOCITY_R_M_S = 0.4
@@ -23,6 +24,9 @@ LIMIT_SIGMA = 5.0
 """Innovations beyond are cut to this."""
 MIN_FACTOR = 0.3
 MAX_SD_M, MAX_WIND_SD_M_S = 1e5, 15.0
+# Of both axes, once: each state needs them.
+_FACTOR_Q, _POSITION_Q = AIRSPEED_Q**2 + YAW_Q_RAD**2, 2.0 * POSITION_Q_M**2
+_GUST, _WIND_Q, _MAX_VARIANCE = 2.0 * GUST_M_S**2, 2.0 * WIND_Q_M_S**2, 2.0 * MAX_SD_M**2
 
 
 class HorizontalFilter:
@@ -174,11 +178,11 @@ class HorizontalFilter:
         total += 2.0 * dt * (north * (r2[4] + r3[5]) + east * (r2[5] - r3[4]))
         thrust = now.thrust_m_s - then.thrust_m_s
         if dt > 0.0:
-            factor = (AIRSPEED_Q**2 + YAW_Q_RAD**2) * dt + (THRUST_Q * thrust) ** 2 / dt
-            total += 2.0 * POSITION_Q_M**2 * dt + 2.0 * GUST_M_S**2 * dt * dt
-            total += (2.0 * WIND_Q_M_S**2 * dt * dt * dt + factor * path) / 3.0
+            factor = _FACTOR_Q * dt + (THRUST_Q * thrust) ** 2 / dt
+            total += _POSITION_Q * dt + _GUST * dt * dt
+            total += (_WIND_Q * dt * dt * dt + factor * path) / 3.0
             total += 2.0 * (UNSEEN_M_S * (now.unseen_s - then.unseen_s)) ** 2
-        return min(max(total, 0.0), 2.0 * MAX_SD_M**2)
+        return limited(total, 0.0, _MAX_VARIANCE)
 
     def blur(self, sd_m: float) -> None:
         """Add an uncertainty of the position."""
@@ -196,7 +200,7 @@ class HorizontalFilter:
     def _correct(self, column: list[float], variance: float, innovation: float) -> None:
         """Apply one scalar measurement: the column is P Hᵀ, the variance that of the innovation."""
         limit = LIMIT_SIGMA * math.sqrt(variance)
-        innovation = max(-limit, min(limit, innovation))
+        innovation = limited(innovation, -limit, limit)
         c0, c1, c2, c3, c4, c5 = column
         gain = innovation / variance
         x = self.x

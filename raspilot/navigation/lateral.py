@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel
+from raspilot.navigation.limits import limited
 from up.earth import GRAVITY_M_S2
 from up.flight_modes.demand import Bank, Circle, Course, Line
 from up.flight_modes.navigation_file import Lateral
@@ -16,7 +17,8 @@ INTEGRAL_PERIODS, INTEGRAL_OF_L1 = 0.6, 0.3
 """Of the integral of the distance to a line: its time over the period, its limit over the L1
 distance."""
 MIN_RADIUS_M = 10.0
-TURN_MEMORY_DEG = 150.0
+TURN_MEMORY_RAD = math.radians(150.0)
+MAX_ERROR_RAD = 0.5 * math.pi
 MAX_FAR_M = 1e7
 
 
@@ -62,20 +64,20 @@ class LateralGuidance:
         heading_rad += turning * self._config.roll_delay_s
         wanted_rad, rate_factor = _heading(course_rad, through_air_m_s, wind_north, wind_east)
         error_rad = self._error(wanted_rad - heading_rad)
-        limit = 0.5 * math.pi
-        rate = self._course_gain * max(-limit, min(limit, error_rad)) + rate_factor * course_rate
+        error_rad = limited(error_rad, -MAX_ERROR_RAD, MAX_ERROR_RAD)
+        rate = self._course_gain * error_rad + rate_factor * course_rate
         return math.degrees(math.atan(airspeed_m_s * rate / GRAVITY_M_S2))
 
     def limited(self, roll_deg: float, airspeed_m_s: float) -> float:
         """Return a bank within the limits of the airspeed and of the configuration."""
         speed_m_s = max(airspeed_m_s, 0.5 * self._model.speeds.stall_m_s)
         limit = min(self._config.bank_limit_deg, self._model.bank_limit_deg(speed_m_s))
-        return max(-limit, min(limit, roll_deg))
+        return limited(roll_deg, -limit, limit)
 
     def _error(self, error_rad: float) -> float:
         """Return the turn to make; almost opposite, the side of the last turn is kept."""
         error_rad = math.remainder(error_rad, 2.0 * math.pi)
-        if abs(error_rad) > math.radians(TURN_MEMORY_DEG) and error_rad * self._last_turn < 0.0:
+        if abs(error_rad) > TURN_MEMORY_RAD and error_rad * self._last_turn < 0.0:
             error_rad += math.copysign(2.0 * math.pi, self._last_turn)
         self._last_turn = error_rad
         return error_rad
@@ -96,7 +98,7 @@ class LateralGuidance:
                 north_m - path.point.north_m
             )
             right_m += self._integral(path, right_m, l1_m, state.time_s)
-            return tangent - math.asin(max(-1.0, min(1.0, right_m / l1_m))), 0.0
+            return tangent - math.asin(limited(right_m / l1_m, -1.0, 1.0)), 0.0
         radius_m = max(MIN_RADIUS_M, path.radius_m)
         out_north = _far(north_m - path.centre.north_m)
         out_east = _far(east_m - path.centre.east_m)
@@ -104,7 +106,7 @@ class LateralGuidance:
         l1_m = max(min(l1_m, MAX_L1_OF_RADIUS * radius_m), 1.0)
         side = 1.0 if path.is_clockwise else -1.0
         bearing = math.atan2(out_east, out_north)
-        inward = math.asin(max(-1.0, min(1.0, outside_m / l1_m)))
+        inward = math.asin(limited(outside_m / l1_m, -1.0, 1.0))
         if outside_m > 0.0:
             # From far away onto the tangent, not towards the centre.
             inward = min(inward, math.acos(radius_m / (radius_m + outside_m)))
@@ -123,14 +125,14 @@ class LateralGuidance:
         Without it a velocity that the estimate has slightly wrong, as in a wind that changes, is
         answered by a distance that stays.
         """
-        if path != self._line:
+        if path is not self._line and path != self._line:
             self._line, self._line_s, self._integral_m = path, time_s, 0.0
-        passed_s = max(0.0, min(0.25, time_s - self._line_s))
+        passed_s = limited(time_s - self._line_s, 0.0, 0.25)
         self._line_s = time_s
         limit_m = INTEGRAL_OF_L1 * l1_m
         if abs(beside_m) < limit_m:
             grown_m = self._integral_m + beside_m * passed_s / self._integral_s
-            self._integral_m = max(-limit_m, min(limit_m, grown_m))
+            self._integral_m = limited(grown_m, -limit_m, limit_m)
         return self._integral_m
 
 
@@ -151,8 +153,8 @@ def _heading(
 
 
 def _bank(roll_deg: float) -> float:
-    return max(-60.0, min(60.0, roll_deg))
+    return limited(roll_deg, -60.0, 60.0)
 
 
 def _far(distance_m: float) -> float:
-    return max(-MAX_FAR_M, min(MAX_FAR_M, distance_m))
+    return limited(distance_m, -MAX_FAR_M, MAX_FAR_M)

@@ -6,6 +6,7 @@ import math
 from copy import copy
 
 from raspilot.navigation.air_path import AirPoint
+from raspilot.navigation.limits import limited
 
 NOISE_M_S2 = 0.25
 """Standard deviation of one acceleration against its model, without the slow error."""
@@ -41,7 +42,7 @@ class SlowError:
         surprise_m_s2 = rest_m_s2 - self._m_s2
         limit_m_s2 = MAX_DEVIATIONS * math.sqrt(variance)
         gain = self._variance / variance
-        self._m_s2 += gain * max(-limit_m_s2, min(limit_m_s2, surprise_m_s2))
+        self._m_s2 += gain * limited(surprise_m_s2, -limit_m_s2, limit_m_s2)
         self._variance *= 1.0 - gain
         return -0.5 * (surprise_m_s2**2 / variance + math.log(variance))
 
@@ -89,7 +90,7 @@ class MotorWatch:
         if end.time_s < self._settled_s:
             self._evidence = 0.0
             return None
-        self._evidence += max(-MAX_EVIDENCE, min(MAX_EVIDENCE, evidence))
+        self._evidence += limited(evidence, -MAX_EVIDENCE, MAX_EVIDENCE)
         self._evidence = max(0.0, self._evidence)
         if self._evidence < CERTAIN or self._began is None:
             return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from raspilot.navigation.lateral import LateralGuidance
+from raspilot.navigation.limits import limited
 from raspilot.navigation.planning import ground_bank_deg
 from raspilot.navigation.vertical import EnergyControl
 from up.flight_modes.demand import AttitudeDemand, PathDemand
@@ -45,17 +46,17 @@ class PathController:
         home_altitude_m: float | None = None,
     ) -> AttitudeDemand:
         """Return the attitude after ``dt_s``, of which at most 0.25 s counts."""
-        dt_s = max(0.0, min(MAX_STEP_S, dt_s))
+        dt_s = limited(dt_s, 0.0, MAX_STEP_S)
         lateral, vertical = self._config.lateral, self._config.vertical
         if self._roll_deg is None:
             self._lateral.reset()
             self._vertical.reset(state.airspeed_m_s)
             self._roll_deg = self._lateral.limited(state.roll_deg, state.airspeed_m_s)
             up_deg, down_deg = vertical.pitch_up_limit_deg, -vertical.pitch_down_limit_deg
-            self._pitch_deg = max(down_deg, min(up_deg, state.pitch_deg))
+            self._pitch_deg = limited(state.pitch_deg, down_deg, up_deg)
         wanted_deg = self._lateral.roll_deg(demand.path, state)
         limit_deg = self._bank_limit_deg(demand, state, home_altitude_m)
-        wanted_deg = max(-limit_deg, min(limit_deg, wanted_deg))
+        wanted_deg = limited(wanted_deg, -limit_deg, limit_deg)
         roll_deg = _towards(self._roll_deg, wanted_deg, lateral.roll_rate_deg_s * dt_s)
         self._roll_deg = self._lateral.limited(roll_deg, state.airspeed_m_s)
         pitch_deg, throttle = self._vertical.step(demand, state, load_of(self._roll_deg), dt_s)
@@ -81,4 +82,4 @@ class PathController:
 
 
 def _towards(value: float, wanted: float, step: float) -> float:
-    return value + max(-step, min(step, wanted - value))
+    return value + limited(wanted - value, -step, step)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of
+from raspilot.navigation.limits import limited
 from up.earth import GRAVITY_M_S2
 from up.flight_modes.demand import PathDemand
 from up.flight_modes.navigation_file import Vertical
@@ -13,11 +14,16 @@ from up.flight_modes.navigation_state import NavigationState
 RATE_S = 1.0
 """Time constant of the airspeed's rate, which the estimate does not give."""
 MAX_ACCELERATION_M_S2 = 1.5
-MAX_CLIMB_M_S = 50.0
+MAX_AIRSPEED_M_S, MAX_CLIMB_M_S, MAX_FELT_M_S2 = 200.0, 50.0, 4.0
+MAX_PITCH_SUM_DEG, MAX_THROTTLE_SUM = 12.0, 0.5
 MAX_RISEN = 0.2
 """Greatest slope of an updraft that pitch answers at once."""
-CLIMB_CHANGE_M_S2 = 1.5
-"""How fast the demanded climb changes: no faster than the motor follows."""
+CLIMB_CHANGE_M_S2 = 4.0
+"""How fast the demanded climb changes: about as fast as pitch follows. The motor follows later;
+until then the airspeed gives the energy, less than 1 m/s of it."""
+IDLE_THROTTLE, IDLE_FASTER_M_S = 0.1, 2.0
+"""Below this throttle pitch gradually tolerates an airspeed that is higher by this; not in a long
+descent, which is slower then."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
 GLIDE_MARGIN = 1.15
@@ -54,13 +60,14 @@ class EnergyControl:
     ) -> tuple[float, float]:
         """Return pitch (deg) and throttle (0 to 1) for the bank that is demanded."""
         model, config = self._model, self._config
-        airspeed = max(0.5 * model.speeds.stall_m_s, min(200.0, state.airspeed_m_s))
-        climb = max(-MAX_CLIMB_M_S, min(MAX_CLIMB_M_S, state.climb_m_s))
+        airspeed = limited(state.airspeed_m_s, 0.5 * model.speeds.stall_m_s, MAX_AIRSPEED_M_S)
+        climb = limited(state.climb_m_s, -MAX_CLIMB_M_S, MAX_CLIMB_M_S)
         if self._smooth_m_s is None:
             self._smooth_m_s = airspeed
         acceleration = (airspeed - self._smooth_m_s) / RATE_S
-        self._smooth_m_s += (airspeed - self._smooth_m_s) * min(1.0, dt_s / RATE_S)
-        acceleration = max(-4.0, min(4.0, acceleration))
+        share_of_rate = min(1.0, dt_s / RATE_S)
+        self._smooth_m_s += (airspeed - self._smooth_m_s) * share_of_rate
+        acceleration = limited(acceleration, -MAX_FELT_M_S2, MAX_FELT_M_S2)
         # What the airspeed's change stores, as a climb.
         stored = airspeed * acceleration / GRAVITY_M_S2
 
@@ -74,24 +81,28 @@ class EnergyControl:
             return self._glide(airspeed, wanted, acceleration, load, dt_s), 0.0
 
         # A long climb is flown faster; the throttle alone accelerates, while the pitch climbs.
-        share = max(0.0, min(1.0, asked_climb / config.climb_limit_m_s - 1.0))
+        share = limited(asked_climb / config.climb_limit_m_s - 1.0, 0.0, 1.0)
         fastest = wanted + share * max(0.0, self._climb_airspeed_m_s - wanted)
         wanted_energy = wanted_climb + self._stored(airspeed, fastest)
-        wanted_stored = self._stored(airspeed, max(wanted, min(fastest, airspeed)))
         energy = climb + stored
         throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
+        # At idle near the altitude the rest of the energy, of rising air, becomes airspeed.
+        near = 2.0 + asked_climb / config.sink_limit_m_s
+        idle = limited(min(near, 1.0 - throttle / IDLE_THROTTLE), 0.0, 1.0)
+        tolerated = max(fastest, min(model.speeds.maximum_m_s, wanted + idle * IDLE_FASTER_M_S))
+        wanted_stored = self._stored(airspeed, max(wanted, min(tolerated, airspeed)))
         if state.motor_stopped:
             # A motor that pulls again, or pulled all along, is noticed by some throttle.
             throttle = min(throttle, model.throttle(model.sink_m_s(airspeed, load) + PROBE_M_S))
             best = GLIDE_MARGIN * max(least, model.speeds.best_glide_m_s * math.sqrt(load))
             return self._glide(airspeed, best, acceleration, load, dt_s), throttle
         # The climb that the motor gives is the one that was seen, not the one that was expected.
-        self._energy += (energy - self._energy) * min(1.0, dt_s / RATE_S)
+        self._energy += (energy - self._energy) * share_of_rate
         highest = self._speed_pitch(airspeed, least, acceleration, self._energy, load)
         # An updraft, or an error of the model: the climb that the present pitch does not explain.
         attack_deg = model.level_pitch_deg(airspeed, load_of(state.roll_deg))
         risen = climb / airspeed - math.sin(math.radians(state.pitch_deg - attack_deg))
-        risen = max(-MAX_RISEN, min(MAX_RISEN, risen))
+        risen = limited(risen, -MAX_RISEN, MAX_RISEN)
         wanted_slope = (wanted_climb - wanted_stored) / airspeed
         slope = (climb - stored) / airspeed
         base = model.level_pitch_deg(airspeed, load)
@@ -104,7 +115,8 @@ class EnergyControl:
             limit += share * min(0.0, reserve(airspeed, load) - limit)
         up, down = min(highest, limit), -config.pitch_down_limit_deg
         if not (pitch >= up and growth > 0.0) and not (pitch <= down and growth < 0.0):
-            self._pitch_sum = max(-12.0, min(12.0, self._pitch_sum + growth))
+            grown = self._pitch_sum + growth
+            self._pitch_sum = limited(grown, -MAX_PITCH_SUM_DEG, MAX_PITCH_SUM_DEG)
         return max(down, min(up, pitch)), throttle
 
     def least_airspeed_m_s(self, load: float) -> float:
@@ -114,7 +126,7 @@ class EnergyControl:
     def _stored(self, airspeed: float, wanted: float) -> float:
         """Return what the change towards an airspeed stores, as a climb."""
         change = self._config.speed_gain * (wanted - airspeed)
-        change = max(-MAX_ACCELERATION_M_S2, min(MAX_ACCELERATION_M_S2, change))
+        change = limited(change, -MAX_ACCELERATION_M_S2, MAX_ACCELERATION_M_S2)
         return airspeed * change / GRAVITY_M_S2
 
     def _asked_climb(self, demand: PathDemand, state: NavigationState) -> float:
@@ -124,9 +136,9 @@ class EnergyControl:
 
     def _climb(self, asked: float, dt_s: float) -> float:
         config = self._config
-        climb = max(-config.sink_limit_m_s, min(config.climb_limit_m_s, asked))
+        climb = limited(asked, -config.sink_limit_m_s, config.climb_limit_m_s)
         step = CLIMB_CHANGE_M_S2 * dt_s
-        self._wanted_climb += max(-step, min(step, climb - self._wanted_climb))
+        self._wanted_climb += limited(climb - self._wanted_climb, -step, step)
         return self._wanted_climb
 
     def _throttle(
@@ -137,8 +149,9 @@ class EnergyControl:
         throttle = model.throttle(power) + config.throttle_p * error + self._throttle_sum
         growth = config.throttle_i * error * dt_s
         if not (throttle >= 1.0 and growth > 0.0) and not (throttle <= 0.0 and growth < 0.0):
-            self._throttle_sum = max(-0.5, min(0.5, self._throttle_sum + growth))
-        return max(0.0, min(1.0, throttle))
+            grown = self._throttle_sum + growth
+            self._throttle_sum = limited(grown, -MAX_THROTTLE_SUM, MAX_THROTTLE_SUM)
+        return limited(throttle, 0.0, 1.0)
 
     def _glide(
         self, airspeed: float, wanted: float, acceleration: float, load: float, dt_s: float
@@ -152,7 +165,7 @@ class EnergyControl:
         up, down = config.pitch_up_limit_deg, -config.pitch_down_limit_deg
         if down < pitch < up and abs(error) < MAX_SUMMED_ERROR_M_S:
             grown = self._speed_sum + growth
-            self._speed_sum = max(-SPEED_PITCH_DEG, min(SPEED_PITCH_DEG, grown))
+            self._speed_sum = limited(grown, -SPEED_PITCH_DEG, SPEED_PITCH_DEG)
         return max(down, min(up, pitch))
 
     def _speed_pitch(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from raspilot.navigation.limits import limited
+
 FIX_R_M, BAROMETER_R_M = 1.3, 0.7
 """White noise of one measurement; how far a receiver's altitude wanders is ``ALTITUDE_Q_M``."""
 WITH_BAROMETER_R_M = 22.0
@@ -25,8 +27,9 @@ LIMIT_SIGMA = 5.0
 MAX_VARIANCE = 1e6
 JUMP_M, JUMP_M_S = 5.0, 15.0
 """A barometer that changes by more than this, and by this each second, has another offset."""
-OFF_M, OFF_TAU_S = 20.0, 10.0
-"""Fixes that differ by more for this long are believed instead of the barometer."""
+OFF_M, OFF_TAU_S, OFF_FIX_S = 20.0, 10.0, 1.0
+"""Fixes that differ by more for this long are believed instead of the barometer; one alone counts
+for at most a second, also after a time without fixes."""
 ALTITUDE, CLIMB, OFFSET, RECEIVER = range(4)
 
 
@@ -76,9 +79,10 @@ class VerticalFilter:
     def sd_at(self, time_s: float) -> float:
         """Return that of the altitude; while it is held, without its constant error."""
         dt = max(0.0, self._passed_s(time_s))
-        p, reach_s = self._p, _reach_s(dt)
-        total = p[0][0] + 2.0 * reach_s * p[0][1] + reach_s * reach_s * p[1][1]
-        total += ALTITUDE_Q_M**2 * dt + _climbed_variance(dt) + (RISING_M_S * dt) ** 2
+        reach_s = _reach_s(dt)
+        altitude, climb = self._p[ALTITUDE], self._p[CLIMB]
+        total = altitude[0] + 2.0 * reach_s * altitude[1] + reach_s * reach_s * climb[1]
+        total += ALTITUDE_Q_M**2 * dt + _climbed_variance(dt, reach_s) + (RISING_M_S * dt) ** 2
         return math.sqrt(min(max(total, 0.0), MAX_VARIANCE))
 
     def hold(self, is_held: bool) -> None:
@@ -171,7 +175,7 @@ class VerticalFilter:
         if dt > BAROMETER_LOST_S:
             self._off_m = 0.0
         self._off_s = time_s
-        self._off_m += (error - self._off_m) * min(1.0, dt / OFF_TAU_S)
+        self._off_m += (error - self._off_m) * min(OFF_FIX_S, dt) / OFF_TAU_S
         if abs(self._off_m) <= OFF_M:
             return error
         self._shift(self._off_m)
@@ -195,38 +199,46 @@ class VerticalFilter:
             return
         self._x[ALTITUDE] = self.altitude_at(time_s, climb_m)
         self._time_s, self._climb_m = time_s, climb_m
-        keep, reach_s = math.exp(-dt / CLIMB_TAU_S), _reach_s(dt)
+        keep = math.exp(-dt / CLIMB_TAU_S)
+        reach_s = CLIMB_TAU_S * (1.0 - keep)
         self._x[CLIMB] *= keep
         p = self._p
+        altitude, climb = p[ALTITUDE], p[CLIMB]
         for k in range(4):
-            p[0][k] += reach_s * p[1][k]
+            altitude[k] += reach_s * climb[k]
+            climb[k] *= keep
         for row in p:
             row[0] += reach_s * row[1]
-        for k in range(4):
-            p[1][k] *= keep
-        for row in p:
             row[1] *= keep
         noise = ALTITUDE_Q_M
         if self._has_barometer(time_s):
             noise = WITH_BAROMETER_Q_M
             if not self._is_pinned:
                 self._widen((1.0, 0.0, -1.0, 0.0), MEAN_Q_M**2 * dt)
-        p[0][0] = min(p[0][0] + noise**2 * dt + _climbed_variance(dt), MAX_VARIANCE)
+        p[0][0] = min(p[0][0] + noise**2 * dt + _climbed_variance(dt, reach_s), MAX_VARIANCE)
         p[0][1] += 0.5 * CLIMB_Q_M_S**2 * reach_s * reach_s
         p[1][0] = p[0][1]
         p[1][1] += 0.5 * CLIMB_Q_M_S**2 * CLIMB_TAU_S * (1.0 - keep * keep)
         p[2][2] = min(p[2][2] + WEATHER_Q_M**2 * dt, MAX_VARIANCE)
 
-    def _correct(self, h: tuple[float, ...], innovation: float, sd: float) -> None:
-        column = [sum(a * b for a, b in zip(h, row, strict=True)) for row in self._p]
-        variance = sum(a * b for a, b in zip(h, column, strict=True)) + sd * sd
+    def _correct(self, h: tuple[float, float, float, float], innovation: float, sd: float) -> None:
+        h0, h1, h2, h3 = h
+        column = [h0 * row[0] + h1 * row[1] + h2 * row[2] + h3 * row[3] for row in self._p]
+        c0, c1, c2, c3 = column
+        variance = h0 * c0 + h1 * c1 + h2 * c2 + h3 * c3 + sd * sd
         limit = LIMIT_SIGMA * math.sqrt(variance)
-        gain = max(-limit, min(limit, innovation)) / variance
-        for index, (row, each) in enumerate(zip(self._p, column, strict=True)):
-            self._x[index] += each * gain
+        gain = limited(innovation, -limit, limit) / variance
+        x = self._x
+        x[0] += c0 * gain
+        x[1] += c1 * gain
+        x[2] += c2 * gain
+        x[3] += c3 * gain
+        for row, each in zip(self._p, column, strict=True):
             part = each / variance
-            for k in range(4):
-                row[k] -= part * column[k]
+            row[0] -= part * c0
+            row[1] -= part * c1
+            row[2] -= part * c2
+            row[3] -= part * c3
 
 
 def _reach_s(passed_s: float) -> float:
@@ -234,7 +246,6 @@ def _reach_s(passed_s: float) -> float:
     return CLIMB_TAU_S * (1.0 - math.exp(-passed_s / CLIMB_TAU_S))
 
 
-def _climbed_variance(dt: float) -> float:
+def _climbed_variance(dt: float, reach_s: float) -> float:
     """Return the altitude's (m squared), of the climb error's noise in this time."""
-    reach_s = _reach_s(dt)
     return (CLIMB_Q_M_S * CLIMB_TAU_S) ** 2 * (dt - reach_s - 0.5 * reach_s**2 / CLIMB_TAU_S)

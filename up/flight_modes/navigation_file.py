@@ -78,7 +78,7 @@ class Vertical:
         2.5, "Greatest demanded climb.", unit="m/s", minimum=0.3, maximum=15
     )
     sink_limit_m_s: float = key(2.5, "Greatest demanded sink.", unit="m/s", minimum=0.3, maximum=15)
-    height_gain: float = key(0.5, "Climb for an altitude error.", unit="m/s per m", minimum=0.05,
+    height_gain: float = key(0.6, "Climb for an altitude error.", unit="m/s per m", minimum=0.05,
                              maximum=2)  # fmt: skip
     speed_gain: float = key(0.4, "Acceleration for an airspeed error.", unit="m/s2 per m/s",
                             minimum=0.05, maximum=2)  # fmt: skip
@@ -86,7 +86,7 @@ class Vertical:
                             minimum=0, maximum=1)  # fmt: skip
     throttle_i: float = key(0.012, "The same for each second of it.", unit="per m", minimum=0,
                             maximum=0.5)  # fmt: skip
-    pitch_p: float = key(0.9, "Part of the climb angle demanded that pitch follows immediately.",
+    pitch_p: float = key(1.0, "Part of the climb angle demanded that pitch follows immediately.",
                          minimum=0, maximum=2)  # fmt: skip
     pitch_i: float = key(0.25, "Pitch for each second of an error of the climb angle.", unit="1/s",
                          minimum=0, maximum=2)  # fmt: skip

@@ -259,3 +259,18 @@ def test_an_airspeed_that_the_model_only_imagines_does_not_hide_a_stopped_motor(
     circling.estimator.throttle(0.6)
     circling.fly(40)
     assert feel_none(4)
+
+
+@pytest.mark.parametrize("wrong_m_s", [0.0, 0.3 * SPEED_M_S, 3.0 * SPEED_M_S])
+def test_a_blocked_pitot_tube_changes_no_airspeed_and_is_counted(circling, wrong_m_s):
+    def sense(duration_s, airspeed_m_s):
+        for _ in range(round(duration_s / 0.1)):
+            circling.estimator.airspeed(circling.fly(0.1).time_s, airspeed_m_s)
+        return circling.estimator.state()
+
+    assert sense(10, 1.1 * SPEED_M_S).airspeed_m_s == pytest.approx(1.1 * SPEED_M_S, abs=0.5)
+    assert "airspeed" not in circling.estimator.rejected
+    state = sense(20, wrong_m_s)
+    assert state.airspeed_m_s == pytest.approx(SPEED_M_S, abs=1.2)
+    assert state.measured_airspeed_m_s == pytest.approx(SPEED_M_S, abs=1.2)
+    assert circling.estimator.rejected == {"airspeed": 200}

@@ -108,7 +108,7 @@ def test_altitude_is_changed_within_the_climb_limits(wind):
         assert max(abs(each.climb_m_s) for each in track) < LIMITS.climb_limit_m_s + 1.0
         assert track[-1].altitude_m == pytest.approx(altitude, abs=0.5)
         # Idle does not descend fast enough: the rest of the energy is airspeed.
-        most = SPEEDS.maximum_m_s + 0.5 if altitude == 340.0 else SPEEDS.cruise_m_s + 2.2
+        most = SPEEDS.maximum_m_s + 0.5 if altitude == 340.0 else SPEEDS.cruise_m_s + 2.7
         assert all(SPEEDS.cruise_m_s - 0.7 < each.airspeed_m_s < most for each in track)
 
 
@@ -245,7 +245,27 @@ def test_pitch_answers_an_updraft_at_once():
     base_deg = stepped(PathController(CONFIG), level, still, 0.2).pitch_deg
     rising = replace(still, climb_m_s=1.0)
     pitch_deg = stepped(PathController(CONFIG), level, rising, 0.2).pitch_deg
-    assert pitch_deg == pytest.approx(base_deg - 4.7, abs=0.6)
+    slope_deg = math.degrees(1.0 / SPEEDS.cruise_m_s)
+    assert pitch_deg == pytest.approx(base_deg - LIMITS.pitch_p * slope_deg, abs=0.6)
+
+
+def test_in_rising_air_at_idle_the_altitude_comes_before_the_airspeed():
+    """Pitch leaves the airspeed as it is, up to 2 m/s too much; farther above it slows down."""
+    airspeed_m_s = SPEEDS.cruise_m_s + 1.5
+    level_deg = AirframeModel(CONFIG).level_pitch_deg(airspeed_m_s, 1.0)
+    rising = replace(
+        PointMass().state, airspeed_m_s=airspeed_m_s, climb_m_s=1.0, pitch_deg=level_deg
+    )
+    slopes_deg = []
+    for above_m in (2.0, 20.0):
+        demand = PathDemand(Bank(0.0), rising.altitude_m - above_m)
+        attitude = stepped(PathController(CONFIG), demand, rising, 0.7)
+        assert attitude.throttle == 0.0
+        wanted_m_s = max(-LIMITS.sink_limit_m_s, -LIMITS.height_gain * above_m) - 1.0
+        slope_deg = math.degrees(LIMITS.pitch_p * wanted_m_s / airspeed_m_s)
+        slopes_deg.append(attitude.pitch_deg - level_deg - slope_deg)
+    assert slopes_deg[0] == pytest.approx(0.0, abs=2.0)
+    assert slopes_deg[1] > slopes_deg[0] + 2.0
 
 
 def test_the_throttle_is_not_wound_up_by_an_unreachable_climb():

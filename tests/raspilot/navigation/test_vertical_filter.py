@@ -1,5 +1,7 @@
 """The altitude with a barometer: whose error it has, and what moves it."""
 
+import math
+
 import pytest
 
 from raspilot.navigation.vertical_filter import CLIMB_TAU_S, OFF_M, VerticalFilter
@@ -107,6 +109,14 @@ def test_a_barometer_that_leaves_the_fixes_is_not_believed():
     assert level.filter.jumps > 3
 
 
+@pytest.mark.parametrize("lost_s", [4.0, 12.0, 60.0])
+def test_a_single_fix_after_a_loss_does_not_move_a_held_altitude(lost_s):
+    level = Level(fix_m=6.0).fly(60, 6.0).fly(lost_s, None)
+    assert level.fly(1, 46.0).error_m == pytest.approx(6.0, abs=1.0)
+    assert level.filter.jumps == 0
+    assert level.fly(30, 46.0).error_m == pytest.approx(46.0, abs=OFF_M), "many of them do"
+
+
 def test_high_up_the_first_fix_is_believed_although_the_barometer_was_there_before():
     level = Level(3900.0, fix_m=None)
     assert level.fly(1, 2.0).error_m == pytest.approx(2.0, abs=0.2)
@@ -158,3 +168,16 @@ def test_one_step_predicts_as_many_do():
     assert many.climb_error_at(60.0) == pytest.approx(one.climb_error_at(60.0))
     for row, other in zip(one._p, many._p, strict=True):
         assert row == pytest.approx(other)
+
+
+@pytest.mark.parametrize("h", [(1.0, 0.0, 1.0, 0.0), (1.0, -0.7, 0.0, 1.0)])
+def test_a_correction_is_that_of_the_textbook(h):
+    found = Level().fly(5, 2.0).filter
+    p, x = [list(row) for row in found._p], list(found._x)
+    found._correct(h, 0.4, 0.7)
+    column = [math.fsum(a * b for a, b in zip(h, row, strict=True)) for row in p]
+    variance = math.fsum(a * b for a, b in zip(h, column, strict=True)) + 0.7**2
+    for i, gain in enumerate(each / variance for each in column):
+        assert found._x[i] == pytest.approx(x[i] + gain * 0.4)
+        wanted = [p[i][k] - gain * column[k] for k in range(4)]
+        assert found._p[i] == pytest.approx(wanted, abs=1e-9)
