@@ -14,13 +14,15 @@ READY_S = 60.0
 
 
 class Nodes:
-    """The running proxies: `aircraft` and `ground` connect to one of them."""
+    """The running proxies: `aircraft` and `ground` connect to one of them.
 
-    def __init__(self, servers, folder, count=3, more="", prefixes=None):
+    Each runs where its NATS server does: `hosts` of `tests.support.hosts`, or this one.
+    """
+
+    def __init__(self, servers, folder, count=3, more=""):
         self.servers = servers
         self.folder = folder
         self.more = more
-        self.prefixes = prefixes or [()] * count
         self.programs = [self._program(number) for number in range(count)]
         self._stack = ExitStack()
 
@@ -28,7 +30,7 @@ class Nodes:
         urls = self.servers.urls.split(",")
         urls = ",".join([*urls[number:], *urls[:number]])
         text = f"cluster:\n  servers: {urls}\n{self.more}"
-        prefix = self.prefixes[number]
+        prefix = self.servers.prefixes[number % len(self.servers.prefixes)]
         return Program(self.folder / f"proxy{number}", text, prefix=prefix)
 
     def __enter__(self):
@@ -50,14 +52,18 @@ class Nodes:
         self._stack.enter_context(program)
         until(lambda: self.is_ready(program), "the node", READY_S)
 
+    def host(self, node):
+        return self.servers.hosts[node % len(self.servers.hosts)]
+
     def aircraft(self, node, name, token=""):
         words = f" token={token}" * bool(token)
-        return accepted(self.programs[node].airborne_port, f"UP1 aircraft={name} packed=1{words}\n")
+        hello = f"UP1 aircraft={name} packed=1{words}\n"
+        return accepted(self.programs[node].airborne_port, hello, self.host(node))
 
     def ground(self, node, name, access="command", token=""):
         words = f" token={token}" * bool(token)
         hello = f"UP1 aircraft={name} seat={access} packed=1{words}\n"
-        return accepted(self.programs[node].ground_port, hello)
+        return accepted(self.programs[node].ground_port, hello, self.host(node))
 
     def pair(self, air_node, ground_node, name):
         """Return an aircraft, the ground in control of it, and both tokens."""

@@ -1,0 +1,289 @@
+"""Aircraft and grounds that reconnect as the real ones do, and what went wrong between them."""
+
+import itertools
+import time
+from collections import Counter
+from dataclasses import dataclass
+
+from twisted.internet.protocol import ClientFactory
+from twisted.protocols.basic import LineOnlyReceiver
+
+from tests.support.reactor import reactor
+from up.protocols.proxy_lines import (
+    Accepted,
+    Access,
+    AircraftPresence,
+    ControlGranted,
+    ControlLost,
+    Hello,
+    Refused,
+    parse_line,
+)
+from up.system.backoff import Backoff
+from up.system.clock import cancel
+
+CONNECT_LIMIT_S = 5.0
+"""As of the real clients, which also wait as long for the answer to a hello."""
+_GROUNDS = itertools.count(1)
+
+
+@dataclass
+class Faults:
+    """What may not happen, counted."""
+
+    misdirected: int = 0
+    """Lines of another aircraft."""
+    repeated: int = 0
+    """Frames and Commands that came twice, or after newer ones."""
+    double_owners: int = 0
+    """Commands of a ground at an aircraft that had obeyed another one since its grant."""
+
+
+class Traffic:
+    """All peers at the nodes; `stop` ends them. `period_s`: of frames and of Commands."""
+
+    def __init__(self, nodes, period_s=0.1):
+        self.nodes = nodes
+        self.period_s = period_s
+        self.faults = Faults()
+        self.aircraft = []
+        self.grounds = []
+
+    def pair(self, air_node, ground_node, name):
+        return self.add_aircraft(air_node, name), self.add_ground(ground_node, name)
+
+    def add_aircraft(self, node, name):
+        self.aircraft.append(Aircraft(self, node, name))
+        return self.aircraft[-1]
+
+    def add_ground(self, node, name, access=Access.COMMAND):
+        self.grounds.append(Ground(self, node, name, access))
+        return self.grounds[-1]
+
+    def stop(self):
+        for peer in (*self.aircraft, *self.grounds):
+            peer.stop()
+
+    def unexecuted(self):
+        """Return the Commands that a ground saw acknowledged and no aircraft executed."""
+        executed = set().union(*(each.executed for each in self.aircraft))
+        return set().union(*(each.acknowledged for each in self.grounds)) - executed
+
+
+class Gaps:
+    """The longest time between two lines since `reset`, the present one included."""
+
+    def __init__(self):
+        self.reset()
+
+    def reset(self):
+        self._last_s, self._longest_s, self.count = time.monotonic(), 0.0, 0
+
+    def on_line(self):
+        self._longest_s, self._last_s = self.longest_s, time.monotonic()
+        self.count += 1
+
+    @property
+    def longest_s(self):
+        return max(self._longest_s, time.monotonic() - self._last_s)
+
+
+class Peer(ClientFactory):
+    """One end: connects to its node, after a loss to the next one, with its token."""
+
+    noisy = False
+    access = None
+
+    def __init__(self, traffic, node, name):
+        self.traffic = traffic
+        self.node = node
+        self.name = name
+        self.token = ""
+        self.is_open = False
+        self.stays = False
+        """Whether it connects to its node alone, and often."""
+        self.connects = 0
+        self.opened_s = 0.0
+        self.refusals = Counter()
+        self._backoff = Backoff()
+        self._link = None
+        self._is_stopped = False
+        self._timer = None
+        self._count = itertools.count(1)
+        self._connect()
+
+    def stop(self):
+        self._is_stopped = True
+        cancel(self._timer)
+        if self._link is not None:
+            self._link.transport.abortConnection()
+
+    def _connect(self):
+        program = self.traffic.nodes.programs[self.node]
+        port = program.ground_port if self.access else program.airborne_port
+        host = self.traffic.nodes.host(self.node)
+        if port:
+            reactor.connectTCP(host, port, self, CONNECT_LIMIT_S)
+        else:
+            self.clientConnectionFailed(None, None)
+
+    def buildProtocol(self, _):  # noqa: N802 - Twisted's name
+        self._link = Link(self)
+        return self._link
+
+    def clientConnectionFailed(self, *_):  # noqa: N802 - Twisted's name
+        self._link = None
+        if self._is_stopped:
+            return
+        if self.stays:
+            self._backoff.reset()
+        else:
+            self.node = (self.node + 1) % len(self.traffic.nodes.programs)
+        self._timer = reactor.callLater(self._backoff.pause_s(), self._connect)
+
+    def on_made(self, link):
+        link.send(Hello(self.name, self.access, self.token, packed=True).encode())
+        self._timer = reactor.callLater(CONNECT_LIMIT_S, link.transport.abortConnection)
+
+    def on_line(self, line):
+        said = parse_line(line) if line.startswith(b"UP1 ") else None
+        if isinstance(said, Accepted):
+            self.token = said.token
+            self.is_open = True
+            self.connects += 1
+            self.opened_s = time.monotonic()
+            self._backoff.reset()
+            cancel(self._timer)
+            self.on_open(said)
+            self._timer = reactor.callLater(self.traffic.period_s, self._beat)
+        elif isinstance(said, Refused):
+            self.refusals[said.code] += 1
+            if said.code == "token":
+                self.token = ""
+            self._link.transport.abortConnection()
+        elif said is not None:
+            self.on_control(said)
+        elif line:
+            self.on_data(line.split(b" "))
+
+    def on_lost(self):
+        self.is_open = False
+        cancel(self._timer)
+        self.clientConnectionFailed()
+
+    def on_open(self, accepted):
+        pass
+
+    def on_control(self, said):
+        pass
+
+    def _beat(self):
+        self._timer = reactor.callLater(self.traffic.period_s, self._beat)
+        self.on_beat()
+
+    def send(self, *words):
+        self._link.send(b" ".join(str(word).encode() for word in words) + b"\n")
+
+
+class Link(LineOnlyReceiver):
+    delimiter = b"\n"
+
+    def __init__(self, peer):
+        self._peer = peer
+
+    def connectionMade(self):  # noqa: N802 - Twisted's name
+        self.transport.setTcpNoDelay(True)
+        self._peer.on_made(self)
+
+    def lineReceived(self, line):  # noqa: N802 - Twisted's name
+        self._peer.on_line(line)
+
+    def connectionLost(self, _):  # noqa: N802 - Twisted's name
+        self._peer.on_lost()
+
+    def send(self, line):
+        self.transport.write(line)
+
+
+class Aircraft(Peer):
+    """Sends frames with their number and time; executes Commands and acknowledges each."""
+
+    def __init__(self, traffic, node, name):
+        self.executed = set()
+        self.owner = None
+        self.former = set()
+        """The owners of control before this one: each grant to a ground is another owner."""
+        super().__init__(traffic, node, name)
+
+    def on_beat(self):
+        self.send("frame", self.name, next(self._count), f"{time.monotonic():.4f}")
+
+    def on_data(self, words):
+        _, name, ground, grant, number = words
+        faults, command = self.traffic.faults, (ground, number)
+        if name.decode() != self.name:
+            faults.misdirected += 1
+            return
+        faults.repeated += command in self.executed
+        self.executed.add(command)
+        if (ground, grant) != self.owner:
+            self.former.add(self.owner)
+            self.owner = ground, grant
+            faults.double_owners += self.owner in self.former
+        self.send("ack", self.name, ground.decode(), number.decode())
+
+
+class Ground(Peer):
+    """Sends Commands while it has control; `grants` counts how often control was granted."""
+
+    def __init__(self, traffic, node, name, access=Access.COMMAND):
+        self.access = access
+        self.id = next(_GROUNDS)
+        self.has_control = False
+        self.grants = 0
+        self.is_aircraft_online = False
+        self.acknowledged = set()
+        self.sent = 0
+        self.oldest_s = 0.0
+        """Age of the oldest frame that came."""
+        self.frames, self.answers = Gaps(), Gaps()
+        self._last = 0
+        super().__init__(traffic, node, name)
+
+    def on_open(self, accepted):
+        self._set_control(accepted.access is Access.COMMAND)
+
+    def on_control(self, said):
+        if isinstance(said, ControlGranted):
+            self.token = said.token
+            self._set_control(True)
+        elif isinstance(said, ControlLost):
+            self._set_control(False)
+        elif isinstance(said, AircraftPresence):
+            self.is_aircraft_online = said.is_online
+
+    def _set_control(self, has_control):
+        self.grants += has_control and not self.has_control
+        self.has_control = has_control
+
+    def on_beat(self):
+        if self.has_control:
+            self.sent += 1
+            self.send("command", self.name, self.id, self.grants, self.sent)
+
+    def on_data(self, words):
+        if words[0] == b"ack":
+            _, name, ground, number = words
+            if int(ground) == self.id:
+                self.acknowledged.add((ground, number))
+                self.answers.on_line()
+        else:
+            _, name, number, sent_s = words
+            self._on_frame(int(number), float(sent_s))
+        self.traffic.faults.misdirected += name.decode() != self.name
+
+    def _on_frame(self, number, sent_s):
+        self.traffic.faults.repeated += number <= self._last
+        self._last = max(self._last, number)
+        self.oldest_s = max(self.oldest_s, time.monotonic() - sent_s)
+        self.frames.on_line()
