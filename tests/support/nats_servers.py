@@ -69,7 +69,7 @@ class NatsServers:
     def __init__(self, folder, count=3, more="", network=None):
         self.folder = Path(folder)
         self.program = nats_server()
-        self.hosts = network.addresses if network else ["127.0.0.1"] * count
+        self.hosts = network.addresses[:count] if network else ["127.0.0.1"] * count
         self.prefixes = network.prefixes if network else [()] * count
         ports = [4222, 8222, 6222] * count if network else free_ports(3 * count)
         self.ports, self._monitors, self._routes = ports[::3], ports[1::3], ports[2::3]

@@ -109,11 +109,12 @@ class ClusterSession(AircraftSession):
 
         def decide(record: Record | None) -> dict[str, Any]:
             data = {} if record is None else record.data
-            if data.get("air") is None:
-                return {"air": fresh, "control": data.get("control")}
-            if data["air"] != token:
+            air = data.get("air")
+            if air is not None and air == token:
+                return data
+            if air is not None and record is not None and record.node != self._node.id:
                 raise _refusal(token)
-            return data
+            return {"air": fresh, "control": data.get("control")}
 
         lease = await self._node.leases.acquire(self._node.key(self.name), decide, self._on_lease)
         self.lease = lease

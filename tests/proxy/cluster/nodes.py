@@ -46,11 +46,15 @@ class Nodes:
     def is_ready(program):
         return "cluster_ready" in program.codes()
 
-    def restart(self, number):
-        """Start a proxy again, at new ports."""
+    def start(self, number):
+        """Begin to start a proxy again, at new ports."""
         program = self.programs[number] = self._program(number)
-        self._stack.enter_context(program)
-        until(lambda: self.is_ready(program), "the node", READY_S)
+        self._stack.push(program)
+
+    def restart(self, number):
+        """Start a proxy again, and wait until it serves."""
+        self.start(number)
+        until(lambda: self.is_ready(self.programs[number]), "the node", READY_S)
 
     def host(self, node):
         return self.servers.hosts[node % len(self.servers.hosts)]

@@ -1,5 +1,6 @@
 """Three proxies and three NATS servers, as real processes."""
 
+import json
 import signal
 import time
 
@@ -132,6 +133,22 @@ def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):
         say(fence - 1, "up", b'{"up": "for a former home"}\n')
         say(fence, "up", b'{"up": "last"}\n')
         assert "former" not in heard_until(aircraft, "last")
+
+
+def test_a_write_without_an_answer_keeps_control(nodes):
+    """The node has written the record of an aircraft that it was about to admit."""
+    waiting, _ = nodes.ground(0, "unanswered")
+    owner, control = nodes.ground(0, "unanswered", token="c" * 32)
+    (node,) = (each["node"] for each in nodes.programs[0].events if "node" in each)
+    data = {"air": "a" * 32, "control": control}
+    record = json.dumps({"node": node, "fence": 0, "data": data}).encode()
+    with RawNats(nodes.servers.ports[0]) as written:
+        written.publish("$KV.up-leases.aircraft.default.unanswered", record)
+    aircraft, token = nodes.aircraft(0, "unanswered", "a" * 32)
+    with waiting, owner, aircraft:
+        assert token == "a" * 32
+        owner.expect("seat command")
+        waiting.expect("seat listen")
 
 
 def test_pairs_of_one_node_go_on_without_nats(nodes):

@@ -19,11 +19,13 @@ from up.protocols.proxy_lines import (
     Refused,
     parse_line,
 )
+from up.protocols.tcp_options import watch_peer
 from up.system.backoff import Backoff
 from up.system.clock import cancel
 
 CONNECT_LIMIT_S = 5.0
 """As of the real clients, which also wait as long for the answer to a hello."""
+USER_TIMEOUT_MS = 1500
 _GROUNDS = itertools.count(1)
 
 
@@ -192,7 +194,7 @@ class Link(LineOnlyReceiver):
         self._peer = peer
 
     def connectionMade(self):  # noqa: N802 - Twisted's name
-        self.transport.setTcpNoDelay(True)
+        watch_peer(self.transport, USER_TIMEOUT_MS)
         self._peer.on_made(self)
 
     def lineReceived(self, line):  # noqa: N802 - Twisted's name
@@ -247,6 +249,9 @@ class Ground(Peer):
         self.oldest_s = 0.0
         """Age of the oldest frame that came."""
         self.frames, self.answers = Gaps(), Gaps()
+        self.round_trips_s = []
+        """From each Command to its acknowledgement."""
+        self._sent_s = {}
         self._last = 0
         super().__init__(traffic, node, name)
 
@@ -269,6 +274,7 @@ class Ground(Peer):
     def on_beat(self):
         if self.has_control:
             self.sent += 1
+            self._sent_s[self.sent] = time.monotonic()
             self.send("command", self.name, self.id, self.grants, self.sent)
 
     def on_data(self, words):
@@ -277,6 +283,7 @@ class Ground(Peer):
             if int(ground) == self.id:
                 self.acknowledged.add((ground, number))
                 self.answers.on_line()
+                self.round_trips_s.append(time.monotonic() - self._sent_s.pop(int(number)))
         else:
             _, name, number, sent_s = words
             self._on_frame(int(number), float(sent_s))
