@@ -15,6 +15,8 @@ from up.protocols.proxy_lines import (
     AircraftPresence,
     ControlGranted,
     ControlLost,
+    ControlRelease,
+    ControlRequest,
     Hello,
     Refused,
     parse_line,
@@ -26,7 +28,7 @@ from up.system.clock import cancel
 CONNECT_LIMIT_S = 5.0
 """As of the real clients, which also wait as long for the answer to a hello."""
 USER_TIMEOUT_MS = 1500
-_GROUNDS = itertools.count(1)
+_IDS = itertools.count(1)
 
 
 @dataclass
@@ -50,6 +52,8 @@ class Traffic:
         self.faults = Faults()
         self.aircraft = []
         self.grounds = []
+        self.owners = {}
+        """Who controlled each aircraft, in order: a ground, and the number of its grant."""
 
     def pair(self, air_node, ground_node, name):
         return self.add_aircraft(air_node, name), self.add_ground(ground_node, name)
@@ -100,6 +104,7 @@ class Peer(ClientFactory):
         self.traffic = traffic
         self.node = node
         self.name = name
+        self.id = next(_IDS)
         self.token = ""
         self.is_open = False
         self.stays = False
@@ -212,13 +217,10 @@ class Aircraft(Peer):
 
     def __init__(self, traffic, node, name):
         self.executed = set()
-        self.owner = None
-        self.former = set()
-        """The owners of control before this one: each grant to a ground is another owner."""
         super().__init__(traffic, node, name)
 
     def on_beat(self):
-        self.send("frame", self.name, next(self._count), f"{time.monotonic():.4f}")
+        self.send("frame", self.name, self.id, next(self._count), f"{time.monotonic():.4f}")
 
     def on_data(self, words):
         _, name, ground, grant, number = words
@@ -228,10 +230,10 @@ class Aircraft(Peer):
             return
         faults.repeated += command in self.executed
         self.executed.add(command)
-        if (ground, grant) != self.owner:
-            self.former.add(self.owner)
-            self.owner = ground, grant
-            faults.double_owners += self.owner in self.former
+        owners = self.traffic.owners.setdefault(self.name, [])
+        if (ground, grant) not in owners[-1:]:
+            faults.double_owners += (ground, grant) in owners
+            owners.append((ground, grant))
         self.send("ack", self.name, ground.decode(), number.decode())
 
 
@@ -240,7 +242,6 @@ class Ground(Peer):
 
     def __init__(self, traffic, node, name, access=Access.COMMAND):
         self.access = access
-        self.id = next(_GROUNDS)
         self.has_control = False
         self.grants = 0
         self.is_aircraft_online = False
@@ -252,7 +253,7 @@ class Ground(Peer):
         self.round_trips_s = []
         """From each Command to its acknowledgement."""
         self._sent_s = {}
-        self._last = 0
+        self._last = {}
         super().__init__(traffic, node, name)
 
     def on_open(self, accepted):
@@ -266,6 +267,18 @@ class Ground(Peer):
             self._set_control(False)
         elif isinstance(said, AircraftPresence):
             self.is_aircraft_online = said.is_online
+
+    def request(self):
+        """Request control; a free one is granted."""
+        self._say(ControlRequest())
+
+    def release(self):
+        if self.has_control:
+            self._say(ControlRelease())
+
+    def _say(self, line):
+        if self.is_open:
+            self._link.send(line.encode())
 
     def _set_control(self, has_control):
         self.grants += has_control and not self.has_control
@@ -285,12 +298,13 @@ class Ground(Peer):
                 self.answers.on_line()
                 self.round_trips_s.append(time.monotonic() - self._sent_s.pop(int(number)))
         else:
-            _, name, number, sent_s = words
-            self._on_frame(int(number), float(sent_s))
+            _, name, sender, number, sent_s = words
+            self._on_frame(sender, int(number), float(sent_s))
         self.traffic.faults.misdirected += name.decode() != self.name
 
-    def _on_frame(self, number, sent_s):
-        self.traffic.faults.repeated += number <= self._last
-        self._last = max(self._last, number)
+    def _on_frame(self, sender, number, sent_s):
+        last = self._last.get(sender, 0)
+        self.traffic.faults.repeated += number <= last
+        self._last[sender] = max(last, number)
         self.oldest_s = max(self.oldest_s, time.monotonic() - sent_s)
         self.frames.on_line()
