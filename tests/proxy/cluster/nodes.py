@@ -130,7 +130,7 @@ class RawNats:
 
     def __enter__(self):
         assert self.file.readline().startswith(b"INFO ")
-        self.socket.sendall(nats.connect({"verbose": False}))
+        self.socket.sendall(nats.connect({"verbose": False, "headers": True}))
         return self
 
     def __exit__(self, *_):
@@ -147,10 +147,9 @@ class RawNats:
         self.socket.sendall(nats.subscribe(subject, 1))
 
     def message(self):
-        """Return the payload of the next message."""
         while not self.messages:
             self._event()
-        return self.messages.popleft().payload
+        return self.messages.popleft()
 
     def _event(self):
         """Read one event, keep a message, and return the kind of another one."""

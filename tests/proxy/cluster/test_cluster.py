@@ -84,6 +84,19 @@ def test_a_stopped_node_leaves_its_aircraft_to_the_others(nodes):
     nodes.restart(0)
 
 
+def test_an_aircraft_that_all_have_left_has_no_lease(nodes):
+    with RawNats(nodes.servers.ports[1]) as written:
+        written.subscribe("$KV.up-leases.aircraft.default.left")
+        aircraft, _ = nodes.aircraft(0, "left")
+        with nodes.ground(0, "left", "listen")[0]:
+            aircraft.close()
+            while json.loads(written.message().payload)["data"]["air"] is not None:
+                pass
+        while (last := written.message()).payload:
+            pass
+        assert b"PURGE" in last.header  # not the end of its time to live
+
+
 def test_a_hung_node_finds_its_aircraft_elsewhere(nodes):
     hung, ground, air_token, _ = nodes.pair(0, 1, "hung")
     nodes.programs[0].process.send_signal(signal.SIGSTOP)
@@ -105,16 +118,45 @@ def test_old_messages_and_those_of_a_former_home_are_dropped(nodes):
         beacon = Beacon(True, None).encode()
         home.publish("up.default.fenced.control", pack("home", 10, 100.0, 0, beacon))
         ground.expect("aircraft online")
-        for fence, sent_s, mark in (
-            (10, 99.0, "young"),
+        marks = (
             (10, 97.5, "old"),
+            (10, 99.5, "young"),
+            (10, 99.0, "overtaken"),
             (9, 100.0, "former home"),
             (10, 100.0, "last"),
-        ):
+        )
+        for fence, sent_s, mark in marks:
             line = f'{{"down": "{mark}"}}\n'.encode()
             home.publish("up.default.fenced.down", pack("home", fence, sent_s, 0, line))
         heard = heard_until(ground, "last")
-        assert [mark in heard for mark in ("young", "old", "former home")] == [True, False, False]
+        assert [mark for *_, mark in marks if mark in heard] == ["young", "last"]
+
+
+def test_a_line_about_control_that_a_guest_did_not_get_is_repeated(nodes):
+    aircraft, _ = nodes.aircraft(0, "repeated")
+    with aircraft, RawNats(nodes.servers.ports[1]) as guest:
+        guest.subscribe("up.default.repeated.control")
+
+        def say(*accesses):
+            listed = [
+                ListedGround(number, access, f"{number}" * 32, True, False, "::1", 0.0)
+                for number, access in enumerate(accesses, 1)
+            ]
+            body = GroundList(tuple(listed)).encode()
+            guest.publish("up.default.repeated.control", pack("other", 0, 100.0, 0, body))
+
+        def expect(ground, line):
+            while True:
+                news = unpack(guest.message().payload)
+                if news.ground == ground and line in news.body:
+                    return
+
+        say(Access.COMMAND, Access.LISTEN)
+        expect(1, b"seat command")
+        for _ in range(2):
+            say(Access.LISTEN, Access.COMMAND)
+            expect(1, b"seat command")
+            expect(2, b"seat listen")
 
 
 def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):
@@ -128,7 +170,7 @@ def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):
 
         say(0, "control", GroundList((ground,)).encode())
         fence = 0
-        while b"seat command" not in (news := unpack(guest.message())).body:
+        while b"seat command" not in (news := unpack(guest.message().payload)).body:
             fence = news.fence
         say(fence - 1, "up", b'{"up": "for a former home"}\n')
         say(fence, "up", b'{"up": "last"}\n')

@@ -38,7 +38,7 @@ class Faults:
     misdirected: int = 0
     """Lines of another aircraft."""
     repeated: int = 0
-    """Frames and Commands that came twice, or after newer ones."""
+    """Commands that came twice, and frames that came twice or after newer ones on a connection."""
     double_owners: int = 0
     """Commands of a ground at an aircraft that had obeyed another one since its grant."""
 
@@ -257,6 +257,8 @@ class Ground(Peer):
         super().__init__(traffic, node, name)
 
     def on_open(self, accepted):
+        # At another node the lines of the last 2 s may come again.
+        self._last.clear()
         self._set_control(accepted.access is Access.COMMAND)
 
     def on_control(self, said):
@@ -281,7 +283,7 @@ class Ground(Peer):
             self._link.send(line.encode())
 
     def _set_control(self, has_control):
-        self.grants += has_control and not self.has_control
+        self.grants += has_control
         self.has_control = has_control
 
     def on_beat(self):
@@ -296,7 +298,8 @@ class Ground(Peer):
             if int(ground) == self.id:
                 self.acknowledged.add((ground, number))
                 self.answers.on_line()
-                self.round_trips_s.append(time.monotonic() - self._sent_s.pop(int(number)))
+                if (sent_s := self._sent_s.pop(int(number), None)) is not None:
+                    self.round_trips_s.append(time.monotonic() - sent_s)
         else:
             _, name, sender, number, sent_s = words
             self._on_frame(sender, int(number), float(sent_s))
