@@ -1,4 +1,4 @@
-"""Random faults, and the history of leases or what relays did in each: a separate process.
+"""Random faults, and the history of leases or of relays in each: a separate process.
 
 Arguments: `leases` or `relays`, the first seed, the number of seeds. Prints a JSON object for each.
 """
@@ -38,7 +38,7 @@ WORKERS = 4
 Fault = tuple[str, Callable[[], object], Callable[[], object]]
 """Its name, what breaks, and what repairs it."""
 HUNG_RELAY = "SIGSTOP of a relay"
-"""What clients sent to it meanwhile is relayed when it continues."""
+"""It relays what clients sent during its pause when it continues."""
 
 
 def server_faults(network: Any, servers: Any, draw: random.Random) -> list[Fault]:
@@ -90,7 +90,7 @@ def search_leases(network: Any, servers: Any, seed: int) -> dict[str, Any]:
 
 
 def search_relays(network: Any, servers: Any, nodes: Any, seed: int) -> dict[str, Any]:
-    """Return what went wrong between aircraft and grounds."""
+    """Return the violations between aircraft and grounds."""
     draw, traffic = random.Random(seed), Traffic(nodes, PERIOD_S)
     kinds = server_faults(network, servers, draw), relay_faults(nodes, draw)
     faults = [draw.sample(kind, 2) for kind in kinds]

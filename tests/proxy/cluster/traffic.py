@@ -1,4 +1,4 @@
-"""Aircraft and grounds that reconnect as the real ones do, and what went wrong between them."""
+"""Aircraft and grounds that reconnect as the real ones do, and the violations that they see."""
 
 import itertools
 import time
