@@ -2,6 +2,7 @@
 
 import select
 import socket
+import time
 from collections import deque
 from contextlib import ExitStack
 
@@ -9,6 +10,8 @@ from tests.proxy.program import Client, Program, accepted
 from tests.support.scrape import scrape
 from tests.support.waiting import DEADLINE_S, until
 from up_cluster import nats_protocol as nats
+from up_proxy.cluster.node_messages import pack
+from up_proxy.cluster.sender_ages import SETTLE_S
 
 READY_S = 60.0
 
@@ -79,6 +82,13 @@ class Nodes:
     def figure(self, node, name):
         return scrape(self.programs[node].metrics_port)[(f"up_proxy_cluster_{name}",)]
 
+    def introduce(self, node, nats, sender):
+        """Let a node measure the age of the messages of another one, made by `packed`."""
+        known = self.figure(node, "nodes")
+        nats.publish("up.default.nodes", packed(sender, 0, 0, b""))
+        until(lambda: self.figure(node, "nodes") > known, "the new sender")
+        time.sleep(SETTLE_S)
+
     def control_refused(self, node):
         """Return how many changes of control were refused for want of the cluster."""
         page = scrape(self.programs[node].metrics_port)
@@ -118,6 +128,11 @@ def is_closed_after(client, line):
         return bool(readable) and client.socket.recv(65536) == b""
     except ConnectionError:
         return True
+
+
+def packed(sender, fence, ground, body, age_s=0.0):
+    """Return a message of a node whose clock is this machine's."""
+    return pack(sender, fence, time.monotonic() - age_s, ground, body)
 
 
 class RawNats:

@@ -11,13 +11,14 @@ from tests.proxy.cluster.nodes import (
     RawNats,
     heard_until,
     is_closed_after,
+    packed,
     refusal,
     relayed,
 )
 from tests.support.nats_servers import NatsServers
 from tests.support.waiting import until
 from up.protocols.proxy_lines import Access
-from up_proxy.cluster.node_messages import Beacon, GroundList, ListedGround, pack, unpack
+from up_proxy.cluster.node_messages import Beacon, GroundList, ListedGround, unpack
 
 
 @pytest.fixture(scope="module")
@@ -116,18 +117,19 @@ def test_old_messages_and_those_of_a_former_home_are_dropped(nodes):
     ground, _ = nodes.ground(1, "fenced")
     with ground, RawNats(nodes.servers.ports[1]) as home:
         beacon = Beacon(True, None).encode()
-        home.publish("up.default.fenced.control", pack("home", 10, 100.0, 0, beacon))
+        nodes.introduce(1, home, "home")
+        home.publish("up.default.fenced.control", packed("home", 10, 0, beacon))
         ground.expect("aircraft online")
         marks = (
-            (10, 97.5, "old"),
-            (10, 99.5, "young"),
-            (10, 99.0, "overtaken"),
-            (9, 100.0, "former home"),
-            (10, 100.0, "last"),
+            (10, 2.5, "old"),
+            (10, 0.0, "young"),
+            (10, 1.0, "overtaken"),
+            (9, 0.0, "former home"),
+            (10, 0.0, "last"),
         )
-        for fence, sent_s, mark in marks:
+        for fence, age_s, mark in marks:
             line = f'{{"down": "{mark}"}}\n'.encode()
-            home.publish("up.default.fenced.down", pack("home", fence, sent_s, 0, line))
+            home.publish("up.default.fenced.down", packed("home", fence, 0, line, age_s))
         heard = heard_until(ground, "last")
         assert [mark for *_, mark in marks if mark in heard] == ["young", "last"]
 
@@ -136,6 +138,7 @@ def test_a_line_about_control_that_a_guest_did_not_get_is_repeated(nodes):
     aircraft, _ = nodes.aircraft(0, "repeated")
     with aircraft, RawNats(nodes.servers.ports[1]) as guest:
         guest.subscribe("up.default.repeated.control")
+        nodes.introduce(0, guest, "other")
 
         def say(*accesses):
             listed = [
@@ -143,7 +146,7 @@ def test_a_line_about_control_that_a_guest_did_not_get_is_repeated(nodes):
                 for number, access in enumerate(accesses, 1)
             ]
             body = GroundList(tuple(listed)).encode()
-            guest.publish("up.default.repeated.control", pack("other", 0, 100.0, 0, body))
+            guest.publish("up.default.repeated.control", packed("other", 0, 0, body))
 
         def expect(ground, line):
             while True:
@@ -163,10 +166,11 @@ def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):
     aircraft, _ = nodes.aircraft(0, "target")
     with aircraft, RawNats(nodes.servers.ports[1]) as guest:
         guest.subscribe("up.default.target.control")
+        nodes.introduce(0, guest, "guest")
         ground = ListedGround(1, Access.COMMAND, "0" * 32, True, False, "::1", 0.0)
 
         def say(fence, kind, body):
-            guest.publish(f"up.default.target.{kind}", pack("guest", fence, 100.0, 1, body))
+            guest.publish(f"up.default.target.{kind}", packed("guest", fence, 1, body))
 
         say(0, "control", GroundList((ground,)).encode())
         fence = 0
