@@ -100,6 +100,8 @@ class ClusterHandshake(Handshake):
                 claimed = await session.claim(token)
                 if connection.failure is None:
                     admit(claimed)
+                elif claimed != token:
+                    session.air_lease.release()  # for a token that no client has
             except HelloError as refusal:
                 error = refusal
             except (NatsUnavailableError, JetStreamError):

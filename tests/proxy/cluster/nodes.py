@@ -82,6 +82,10 @@ class Nodes:
     def figure(self, node, name):
         return scrape(self.programs[node].metrics_port)[(f"up_proxy_cluster_{name}",)]
 
+    def connections(self, node):
+        """Return how many aircraft are connected, or wait for the answer to their hello."""
+        return scrape(self.programs[node].metrics_port)[("up_proxy_connections", "airborne")]
+
     def introduce(self, node, nats, sender):
         """Let a node measure the age of the messages of another one, made by `packed`."""
         known = self.figure(node, "nodes")

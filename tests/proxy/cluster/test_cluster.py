@@ -15,6 +15,7 @@ from tests.proxy.cluster.nodes import (
     refusal,
     relayed,
 )
+from tests.proxy.program import Client
 from tests.support.nats_servers import NatsServers
 from tests.support.waiting import until
 from up.protocols.proxy_lines import Access
@@ -195,6 +196,20 @@ def test_a_write_without_an_answer_keeps_control(nodes):
         assert token == "a" * 32
         owner.expect("seat command")
         waiting.expect("seat listen")
+
+
+def test_an_aircraft_that_left_before_its_lease_came_may_return(nodes):
+    servers, port = nodes.servers, nodes.programs[0].airborne_port
+    until(lambda: nodes.figure(0, "leases") == 0, "the end of the aircraft before")
+    for number in range(3):
+        servers.pause(number)
+    with Client(port, "UP1 aircraft=hasty\n"):
+        until(lambda: nodes.connections(0) == 1, "the connection")
+    until(lambda: nodes.connections(0) == 0, "its end")
+    for number in range(3):
+        servers.resume(number)
+    until(lambda: nodes.figure(0, "leases") == 1, "the lease")
+    nodes.aircraft(0, "hasty")[0].close()
 
 
 def test_pairs_of_one_node_go_on_without_nats(nodes):
