@@ -1,12 +1,10 @@
-"""Three proxies on three NATS servers: the hop between nodes, failures, the leases' history."""
+"""Three proxies on three NATS servers: the hop between nodes, the loss of a leader or a host."""
 
 import itertools
 import math
-import random
-import signal
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -14,18 +12,13 @@ from typing import Any
 from bench.relay import Load, tree_cpu_s
 from bench.table import Row, compared
 from bench.timing import Limit
-from tests.cluster.lease_history import run, violations
 from tests.proxy.cluster.nodes import Nodes
 from tests.runner.pool.runner_pool import RunnerPool, doubles, lives
 from tests.support.nats_servers import NatsServers
-from tests.support.reactor import run_in_reactor
 from tests.support.waiting import until
-from up_cluster.key_value import KeyValueBucket
 
 ROUNDS, QUICK_ROUNDS = 3, 1
 SECONDS, QUICK_SECONDS = 3.0, 1.0
-FAULT_PAIRS, QUICK_FAULT_PAIRS = 50, 5
-HISTORIES, QUICK_HISTORIES = 20, 1
 ADDED_P50_US, ADDED_P99_US = 800.0, 3000.0
 CPU_RATIO, CPU_RATIO_WITH_NATS = 2.2, 3.7
 BACK_S, NEW_LEASE_S = 3.0, 10.0
@@ -89,21 +82,6 @@ def measure(
     return end["p50_us"], end["p99_us"], used[0] * 1e6 / count, used[1] * 1e6 / count
 
 
-def killed_node_row(nodes: Any, pairs: int) -> Row:
-    """Return when the last pair of a killed node relays again."""
-    made = [nodes.pair(0, 1, f"killed-{number}") for number in range(pairs)]
-    nodes.programs[0].end(signal.SIGKILL)
-    began_s = time.monotonic()
-    for number, (_, ground, token, _) in enumerate(made):
-        aircraft, _ = nodes.aircraft(2, f"killed-{number}", token)
-        aircraft.say("after\n")
-        ground.expect("after")
-    took_s = time.monotonic() - began_s
-    nodes.restart(0)
-    what = f"cluster, kill -9 of a node with {pairs} aircraft: all data paths back"
-    return Row(what, f"{took_s:.2f} s", target=f"<= {BACK_S:g} s", met=took_s <= BACK_S)
-
-
 def killed_leader_rows(servers: Any, nodes: Any) -> Iterable[Row]:
     """Yield the longest gap of pairs when the NATS leader of the bucket dies, and a new lease."""
     leader = servers.leader("KV_up-leases")
@@ -146,38 +124,6 @@ def until_relayed(aircraft: Any, ground: Any, mark: str) -> float:
     return time.monotonic() - began_s
 
 
-def history_row(histories: int, seconds: float = 9.0) -> Row:
-    """Return the violations in the histories of leases while servers hang and die."""
-    found, count = 0, 0
-    with tempfile.TemporaryDirectory() as folder, NatsServers(Path(folder)) as servers:
-        for seed in range(histories):
-            draw = random.Random(seed)
-            faults = faults_of(servers, draw, seconds)
-            history = run_in_reactor(
-                run, servers, f"seed-{seed}", seed, seconds, KeyValueBucket, faults
-            )
-            count += len(history)
-            found += len(violations(history))
-    what = f"cluster, violations in {histories} histories with {count} leases"
-    return Row(what, str(found), target="0", met=found == 0)
-
-
-def faults_of(
-    servers: Any, draw: random.Random, seconds: float
-) -> list[tuple[float, Callable[[], object]]]:
-    """Return a pause and a kill of two servers, each repaired before the end."""
-    victim, other = draw.sample(range(3), 2)
-    at_s = draw.uniform(0.5, 1.5)
-    paused_s = draw.uniform(0.5, 4.0)
-    killed_s = at_s + paused_s + draw.uniform(0.5, 1.5)
-    return [
-        (at_s, lambda: servers.pause(victim)),
-        (at_s + paused_s, lambda: servers.resume(victim)),
-        (killed_s, lambda: servers.kill(other)),
-        (min(killed_s + 0.5, seconds - 0.5), lambda: servers.start(other)),
-    ]
-
-
 def killed_host_rows(instances: int) -> Iterable[Row]:
     """Yield when all instances of a killed host run elsewhere, and how many ran twice."""
     config = {"instances": 2 * instances, "start limit": 60}
@@ -210,7 +156,5 @@ def rows(quick: bool = False) -> Iterable[Row]:
     with cluster() as (servers, nodes):
         rounds, seconds = (QUICK_ROUNDS, QUICK_SECONDS) if quick else (ROUNDS, SECONDS)
         yield from hop_rows(servers, nodes, rounds, seconds)
-        yield killed_node_row(nodes, QUICK_FAULT_PAIRS if quick else FAULT_PAIRS)
         yield from killed_leader_rows(servers, nodes)
     yield from killed_host_rows(QUICK_INSTANCES if quick else INSTANCES)
-    yield history_row(QUICK_HISTORIES if quick else HISTORIES)

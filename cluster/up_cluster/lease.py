@@ -119,7 +119,8 @@ class LeaseStore:
     ) -> Lease:
         """Acquire a key; see the module. `on_change` is called when the state or fence changes.
 
-        A record of this node that it does not hold, of a write without an answer, counts as free.
+        A record of this node that it does not hold is of a write without an answer: the key is
+        free.
         """
         expected, record = 0, None
         for _ in range(MAX_TRIES):
@@ -130,7 +131,7 @@ class LeaseStore:
             except WrongRevisionError:
                 entry = await self._bucket.get(key)
                 expected = 0 if entry is None else entry.revision
-                record = self._record(entry)
+                record = None if entry is None else parse_record(entry)
                 continue
             lease = Lease(key, data, revision, revision, began_s + self._ttl_s, on_change)
             stale = self._held.get(key)

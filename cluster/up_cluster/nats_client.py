@@ -1,5 +1,6 @@
 """A NATS client on Twisted's reactor: it connects to one of several servers and stays connected."""
 
+import itertools
 import secrets
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
@@ -239,6 +240,8 @@ class NatsClient:
     def on_ready(self, link: "NatsLink") -> None:
         """Use a link whose server has accepted CONNECT."""
         self._link, self._ready_s = link, self._reactor.seconds()
+        subjects = [(subject, sid) for sid, (subject, _) in self._subscriptions.items()]
+        link.send(b"".join(itertools.starmap(nats.subscribe, subjects)))
         self.reconnects += 1
         _log.info("connected to NATS server {server}", code="nats_connected", server=link.server)
         self._on_connected(True)
@@ -255,9 +258,6 @@ class NatsClient:
         self._log_lost(link.server, code, reason)
         self._fail_requests()
         self._on_connected(False)
-
-    def subscription_lines(self) -> list[bytes]:
-        return [nats.subscribe(subject, sid) for sid, (subject, _) in self._subscriptions.items()]
 
     def on_message(self, message: nats.Message) -> None:
         subscribed = self._subscriptions.get(message.sid)
@@ -369,8 +369,7 @@ class NatsLink(Protocol):
         elif isinstance(event, nats.Info):
             self.server = str(event.fields.get("server_name", self.server))
             if not self._is_ready:
-                lines = self._client.subscription_lines()
-                self.send(b"".join([nats.connect(self._client.options), *lines, nats.PING]))
+                self.send(nats.connect(self._client.options) + nats.PING)
             elif event.fields.get("ldm"):
                 self._fail("lame_duck", "the server is about to end")
         elif isinstance(event, nats.Failed):

@@ -56,10 +56,15 @@ class TakenError(Exception):
     """The key is another node's."""
 
 
-def free_only(record):
-    if record is not None:
-        raise TakenError
-    return {}
+def free_for(name):
+    """Return what decides to take a free key; one of this node is of a write without an answer."""
+
+    def decide(record):
+        if record is not None and record.node != name:
+            raise TakenError
+        return {}
+
+    return decide
 
 
 async def compete(name, client, make, key, seed, end_s, history, is_enough):
@@ -68,7 +73,7 @@ async def compete(name, client, make, key, seed, end_s, history, is_enough):
     leases = LeaseStore(make(client, "up-leases"), reactor, name, TTL_S)
     while (asked_s := reactor.seconds()) < end_s and not is_enough(history):
         try:
-            lease = await leases.acquire(key, free_only)
+            lease = await leases.acquire(key, free_for(name))
         except (TakenError, NatsUnavailableError, JetStreamError):
             await sleep(draw.uniform(0.01, 0.2))
             continue

@@ -51,6 +51,20 @@ def test_a_silent_server_is_left():
     assert link._failed[0] == "silent"
 
 
+def test_subscriptions_that_change_during_the_handshake():
+    client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 4222)], name="test")
+    ended = client.subscribe("ended", print)
+    link = client._build()
+    transport = Transport("127.0.0.1")
+    link.makeConnection(transport)
+    link.dataReceived(INFO)
+    client.unsubscribe(ended)
+    client.subscribe("begun", print)
+    link.dataReceived(nats_protocol.PONG)
+    made = [line for line in transport.value().split(b"\r\n") if line.startswith(b"SUB")]
+    assert made == [b"SUB begun 2"]
+
+
 def test_nothing_waits_for_a_connection():
     client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 4222)], name="test")
     client.publish("data", b"old")

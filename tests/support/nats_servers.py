@@ -63,15 +63,15 @@ def free_ports(count, host="127.0.0.1"):
 class NatsServers:
     """`count` servers; `kill`, `pause`, `resume` and `start` one by its index.
 
-    `prefixes`: a command for each server that runs it in a network namespace, with its `hosts`.
+    `network`: the `Hosts` on which they run, one on each; otherwise all run here.
     """
 
-    def __init__(self, folder, count=3, more="", hosts=None, prefixes=None, *, jetstream=True):
+    def __init__(self, folder, count=3, more="", network=None, *, jetstream=True):
         self.folder = Path(folder)
         self.program = nats_server()
-        self.hosts = hosts or ["127.0.0.1"] * count
-        self.prefixes = prefixes or [()] * count
-        ports = [4222, 8222, 6222] * count if hosts else free_ports(3 * count)
+        self.hosts = network.addresses[:count] if network else ["127.0.0.1"] * count
+        self.prefixes = network.prefixes if network else [()] * count
+        ports = [4222, 8222, 6222] * count if network else free_ports(3 * count)
         self.ports, self._monitors, self._routes = ports[::3], ports[1::3], ports[2::3]
         self.processes = [None] * count
         routes = ", ".join(
@@ -133,8 +133,8 @@ class NatsServers:
 
     def leader(self, stream):
         """Return the index of the server that leads a stream."""
-        for port in self._monitors:
-            url = f"http://{self.hosts[0]}:{port}/jsz?streams=1&config=1"
+        for host, port in zip(self.hosts, self._monitors, strict=True):
+            url = f"http://{host}:{port}/jsz?streams=1&config=1"
             with urllib.request.urlopen(url, timeout=DEADLINE_S) as answer:
                 for account in json.load(answer).get("account_details", []):
                     for detail in account.get("stream_detail", []):

@@ -14,6 +14,7 @@ from up.protocols.link_output import Make
 from up.protocols.packed_telemetry import IsEnough, Packer
 from up.protocols.proxy_lines import (
     HELLO_MAX_BYTES,
+    TOKEN,
     Accepted,
     Hello,
     Refused,
@@ -35,10 +36,11 @@ SILENCE_S, UNWATCHED_SILENCE_S = 12.0, 25.0
 class UplinkProtocol(GeneralMessageProtocol):
     """General Messages after a hello; without ``hello`` immediately (legacy client).
 
-    ``on_token`` gets the token for the next hello, empty after a refusal: the name may belong to
-    another aircraft. ``on_ready`` gets the link when messages can be sent. ``lost_code`` is the
-    code of the loss. A link with hello sends an empty line after ``heartbeat_s`` without other
-    data, more rarely without any ground. ``watchers`` stays None at a proxy that does not tell.
+    ``on_token`` gets the token for the next hello, empty when the proxy refuses it: the name may
+    belong to another aircraft. ``on_ready`` gets the link when messages can be sent. ``lost_code``
+    is the code of the loss. A link with hello sends an empty line after ``heartbeat_s`` without
+    other data, more rarely without any ground. ``watchers`` stays None at a proxy that does not
+    tell.
     """
 
     def __init__(
@@ -168,7 +170,8 @@ class UplinkProtocol(GeneralMessageProtocol):
             self._ready()
             return True
         if isinstance(answer, Refused):
-            self._on_token("")
+            if answer.code == TOKEN:
+                self._on_token("")
             self._give_up(
                 f"proxy_refused_{answer.code}",
                 f"the proxy refused: {answer.reason} ({answer.code})",

@@ -129,6 +129,8 @@ class ClusterHandshake(Handshake):
                 claimed = await claim
                 if connection.failure is None:
                     admit(claimed)
+                elif claimed != token:
+                    session.air_lease.release()  # for a token that no client has
             except HelloError as refusal:
                 error = refusal
             except (NatsUnavailableError, JetStreamError):

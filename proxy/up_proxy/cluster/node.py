@@ -127,14 +127,20 @@ class ClusterNode:
         self._client.publish(subject, pack(self.id, fence, self._reactor.seconds(), ground, body))
 
     def subscribe(self, subject: str, on_message: Callable[[Envelope], None]) -> int:
-        """Pass on messages that are neither malformed nor older than MAX_AGE_S."""
+        """Pass on messages that are not malformed, older than MAX_AGE_S, or overtaken.
+
+        A NATS server that hung delivers what its node has sent since then by another one.
+        """
+        newest_s: dict[str, float] = {}
 
         def receive(message: Message) -> None:
             try:
                 envelope = unpack(message.payload)
-                if self._is_stale(envelope):
+                sent_s = envelope.sent_s
+                if self._is_stale(envelope) or sent_s < newest_s.get(envelope.node, sent_s):
                     self.stale += 1
                 else:
+                    newest_s[envelope.node] = sent_s
                     on_message(envelope)
             except MalformedError:
                 self._malformed += 1
@@ -156,7 +162,7 @@ class ClusterNode:
 
         refused: Samples = [({"code": code}, count) for code, count in self.refused.items()]
         counters: list[tuple[str, str, Samples]] = [
-            ("stale", "Messages of other nodes dropped for their age.", one(self.stale)),
+            ("stale", "Messages of other nodes dropped as old or overtaken.", one(self.stale)),
             ("fenced", "Messages of a former home or to another one.", one(self.fenced)),
             ("malformed", "Malformed messages of other nodes.", one(self._malformed)),
             ("dropped", "Messages to NATS that were dropped.", one(self._client.dropped)),

@@ -81,9 +81,9 @@ class ClusterSession(AircraftSession):
         self._node.forget(self)
         for sid in (self._control_sid, self._data_sid):
             self._node.unsubscribe(sid)
-        if self.lease is not None:
-            self._node.release(self.lease, None)
-            self.lease = None
+        lease, self.lease = self.lease, None
+        if lease is not None:
+            self._node.release(lease, None)
 
     # The lease.
 
@@ -150,11 +150,12 @@ class ClusterSession(AircraftSession):
 
         def decide(record: Record | None) -> dict[str, Any]:
             data = {} if record is None else record.data
-            if data.get("air") is None:
-                return {"air": fresh, "control": data.get("control")}
-            if data["air"] != token:
+            air = data.get("air")
+            if air is not None and air == token:
+                return data
+            if air is not None and record is not None and record.node != self._node.id:
                 raise _refusal(token)
-            return data
+            return {"air": fresh, "control": data.get("control")}
 
         lease = await self._node.leases.acquire(self._node.key(self.name), decide, self._on_lease)
         self.lease = lease
@@ -332,6 +333,7 @@ class ClusterSession(AircraftSession):
             known = self._remotes.get(key)
             if known is not None:
                 known.last_rx_s = max(known.last_rx_s, now_s - each.age_s)
+                self._correct(known, each.access)
                 continue
             is_new = True
             remote = RemoteGround(node, each, now_s, self._line_sender(node, each.number))
@@ -340,6 +342,15 @@ class ClusterSession(AircraftSession):
         if is_new or not is_known:
             self.announce()
             self._send_beacon()
+
+    def _correct(self, remote: RemoteGround, shown: Access) -> None:
+        """Repeat what a ground was sent about its control, and did not get."""
+        is_owner = remote is self.grounds.lease.owner
+        if is_owner is (shown is Access.COMMAND) or remote is self.home_grounds.granting:
+            return
+        if remote.speaks_hello:
+            line = ControlGranted(remote.token) if is_owner else ControlLost()
+            remote.send(line.encode())
 
     def _line_sender(self, node: str, number: int) -> Any:
         return lambda line: self._send(".control", number, GroundLine(node, line).encode())
@@ -381,10 +392,10 @@ class ClusterSession(AircraftSession):
 
     def drain(self) -> None:
         """Leave the record to any other node."""
-        if self.lease is not None:
-            data = {**self.lease.data, "air": None}
-            self._node.release(self.lease, data)
-            self.lease = None
+        lease, self.lease = self.lease, None
+        if lease is not None:
+            self._node.release(lease, {**lease.data, "air": None})
+            self._become_guest()
 
 
 def _refusal(token: str | None) -> HelloError:

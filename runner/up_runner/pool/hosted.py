@@ -111,7 +111,7 @@ class HostedInstances:
         """Acquire the lease. Raises TakenError, NatsUnavailableError, JetStreamError."""
 
         def decide(record: Record | None) -> dict[str, Any]:
-            if record is not None:
+            if record is not None and record.node != self._member.id:
                 raise TakenError
             return {"host": self._config.pool.address}
 

@@ -100,6 +100,22 @@ def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
         assert a.up.command_receiver.counters["received"] == 0
 
 
+def test_a_refusal_that_does_not_judge_the_token_keeps_it(tmp_path):
+    @uplinked(tmp_path)
+    async def _(a, server):
+        first = await accepted(server)
+        await until(lambda: a.provider.connected)
+        first.transport.abortConnection()
+        for number, code in enumerate((b"cluster", b"full"), 1):
+            refused = await server.peer(number)
+            await until(lambda peer=refused: peer.received)
+            refused.say(b"UP1 error code=" + code + b' reason="later"\n')
+            await refused.closed
+        again = await server.peer(3)
+        expected = b"UP1 aircraft=default token=" + b"ab" * 16 + b" packed=1\n"
+        assert await until(lambda: again.received) == expected
+
+
 @pytest.mark.parametrize(
     ("answer", "code"),
     [

@@ -2,6 +2,7 @@
 
 import select
 import socket
+import time
 from collections import deque
 from contextlib import ExitStack
 
@@ -9,18 +10,22 @@ from tests.proxy.program import Client, Program, accepted
 from tests.support.scrape import scrape
 from tests.support.waiting import DEADLINE_S, until
 from up_cluster import nats_protocol as nats
+from up_proxy.cluster.node_messages import pack
+from up_proxy.cluster.sender_ages import SETTLE_S
 
 READY_S = 60.0
 
 
 class Nodes:
-    """The running proxies: `aircraft` and `ground` connect to one of them."""
+    """The running proxies: `aircraft` and `ground` connect to one of them.
 
-    def __init__(self, servers, folder, count=3, more="", prefixes=None):
+    Each runs where its NATS server does: `hosts` of `tests.support.hosts`, or this one.
+    """
+
+    def __init__(self, servers, folder, count=3, more=""):
         self.servers = servers
         self.folder = folder
         self.more = more
-        self.prefixes = prefixes or [()] * count
         self.programs = [self._program(number) for number in range(count)]
         self._stack = ExitStack()
 
@@ -28,7 +33,7 @@ class Nodes:
         urls = self.servers.urls.split(",")
         urls = ",".join([*urls[number:], *urls[:number]])
         text = f"cluster:\n  servers: {urls}\n{self.more}"
-        prefix = self.prefixes[number]
+        prefix = self.servers.prefixes[number % len(self.servers.prefixes)]
         return Program(self.folder / f"proxy{number}", text, prefix=prefix)
 
     def __enter__(self):
@@ -44,20 +49,28 @@ class Nodes:
     def is_ready(program):
         return "cluster_ready" in program.codes()
 
-    def restart(self, number):
-        """Start a proxy again, at new ports."""
+    def start(self, number):
+        """Begin to start a proxy again, at new ports."""
         program = self.programs[number] = self._program(number)
-        self._stack.enter_context(program)
-        until(lambda: self.is_ready(program), "the node", READY_S)
+        self._stack.push(program)
+
+    def restart(self, number):
+        """Start a proxy again, and wait until it serves."""
+        self.start(number)
+        until(lambda: self.is_ready(self.programs[number]), "the node", READY_S)
+
+    def host(self, node):
+        return self.servers.hosts[node % len(self.servers.hosts)]
 
     def aircraft(self, node, name, token=""):
         words = f" token={token}" * bool(token)
-        return accepted(self.programs[node].airborne_port, f"UP1 aircraft={name} packed=1{words}\n")
+        hello = f"UP1 aircraft={name} packed=1{words}\n"
+        return accepted(self.programs[node].airborne_port, hello, self.host(node))
 
     def ground(self, node, name, access="command", token=""):
         words = f" token={token}" * bool(token)
         hello = f"UP1 aircraft={name} seat={access} packed=1{words}\n"
-        return accepted(self.programs[node].ground_port, hello)
+        return accepted(self.programs[node].ground_port, hello, self.host(node))
 
     def pair(self, air_node, ground_node, name):
         """Return an aircraft, the ground in control of it, and both tokens."""
@@ -68,6 +81,17 @@ class Nodes:
 
     def figure(self, node, name):
         return scrape(self.programs[node].metrics_port)[(f"up_proxy_cluster_{name}",)]
+
+    def connections(self, node):
+        """Return how many aircraft are connected, or wait for the answer to their hello."""
+        return scrape(self.programs[node].metrics_port)[("up_proxy_connections", "airborne")]
+
+    def introduce(self, node, nats, sender):
+        """Let a node measure the age of the messages of another one, made by `packed`."""
+        known = self.figure(node, "nodes")
+        nats.publish("up.default.nodes", packed(sender, 0, 0, b""))
+        until(lambda: self.figure(node, "nodes") > known, "the new sender")
+        time.sleep(SETTLE_S)
 
     def control_refused(self, node):
         """Return how many changes of control were refused for want of the cluster."""
@@ -110,6 +134,11 @@ def is_closed_after(client, line):
         return True
 
 
+def packed(sender, fence, ground, body, age_s=0.0):
+    """Return a message of a node whose clock is this machine's."""
+    return pack(sender, fence, time.monotonic() - age_s, ground, body)
+
+
 class RawNats:
     """A connection to a NATS server, for messages that a proxy does not send."""
 
@@ -120,7 +149,7 @@ class RawNats:
 
     def __enter__(self):
         assert self.file.readline().startswith(b"INFO ")
-        self.socket.sendall(nats.connect({"verbose": False}))
+        self.socket.sendall(nats.connect({"verbose": False, "headers": True}))
         return self
 
     def __exit__(self, *_):
@@ -137,10 +166,9 @@ class RawNats:
         self.socket.sendall(nats.subscribe(subject, 1))
 
     def message(self):
-        """Return the payload of the next message."""
         while not self.messages:
             self._event()
-        return self.messages.popleft().payload
+        return self.messages.popleft()
 
     def _event(self):
         """Read one event, keep a message, and return the kind of another one."""

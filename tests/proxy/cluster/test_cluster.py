@@ -1,5 +1,6 @@
 """Three proxies and three NATS servers, as real processes."""
 
+import json
 import signal
 import time
 
@@ -10,13 +11,15 @@ from tests.proxy.cluster.nodes import (
     RawNats,
     heard_until,
     is_closed_after,
+    packed,
     refusal,
     relayed,
 )
+from tests.proxy.program import Client
 from tests.support.nats_servers import NatsServers
 from tests.support.waiting import until
 from up.protocols.proxy_lines import Access
-from up_proxy.cluster.node_messages import Beacon, GroundList, ListedGround, pack, unpack
+from up_proxy.cluster.node_messages import Beacon, GroundList, ListedGround, unpack
 
 
 @pytest.fixture(scope="module")
@@ -83,6 +86,19 @@ def test_a_stopped_node_leaves_its_aircraft_to_the_others(nodes):
     nodes.restart(0)
 
 
+def test_an_aircraft_that_all_have_left_has_no_lease(nodes):
+    with RawNats(nodes.servers.ports[1]) as written:
+        written.subscribe("$KV.up-leases.aircraft.default.left")
+        aircraft, _ = nodes.aircraft(0, "left")
+        with nodes.ground(0, "left", "listen")[0]:
+            aircraft.close()
+            while json.loads(written.message().payload)["data"]["air"] is not None:
+                pass
+        while (last := written.message()).payload:
+            pass
+        assert b"PURGE" in last.header  # not the end of its time to live
+
+
 def test_a_hung_node_finds_its_aircraft_elsewhere(nodes):
     hung, ground, air_token, _ = nodes.pair(0, 1, "hung")
     nodes.programs[0].process.send_signal(signal.SIGSTOP)
@@ -102,36 +118,98 @@ def test_old_messages_and_those_of_a_former_home_are_dropped(nodes):
     ground, _ = nodes.ground(1, "fenced")
     with ground, RawNats(nodes.servers.ports[1]) as home:
         beacon = Beacon(True, None).encode()
-        home.publish("up.default.fenced.control", pack("home", 10, 100.0, 0, beacon))
+        nodes.introduce(1, home, "home")
+        home.publish("up.default.fenced.control", packed("home", 10, 0, beacon))
         ground.expect("aircraft online")
-        for fence, sent_s, mark in (
-            (10, 99.0, "young"),
-            (10, 97.5, "old"),
-            (9, 100.0, "former home"),
-            (10, 100.0, "last"),
-        ):
+        marks = (
+            (10, 2.5, "old"),
+            (10, 0.0, "young"),
+            (10, 1.0, "overtaken"),
+            (9, 0.0, "former home"),
+            (10, 0.0, "last"),
+        )
+        for fence, age_s, mark in marks:
             line = f'{{"down": "{mark}"}}\n'.encode()
-            home.publish("up.default.fenced.down", pack("home", fence, sent_s, 0, line))
+            home.publish("up.default.fenced.down", packed("home", fence, 0, line, age_s))
         heard = heard_until(ground, "last")
-        assert [mark in heard for mark in ("young", "old", "former home")] == [True, False, False]
+        assert [mark for *_, mark in marks if mark in heard] == ["young", "last"]
+
+
+def test_a_line_about_control_that_a_guest_did_not_get_is_repeated(nodes):
+    aircraft, _ = nodes.aircraft(0, "repeated")
+    with aircraft, RawNats(nodes.servers.ports[1]) as guest:
+        guest.subscribe("up.default.repeated.control")
+        nodes.introduce(0, guest, "other")
+
+        def say(*accesses):
+            listed = [
+                ListedGround(number, access, f"{number}" * 32, True, False, "::1", 0.0)
+                for number, access in enumerate(accesses, 1)
+            ]
+            body = GroundList(tuple(listed)).encode()
+            guest.publish("up.default.repeated.control", packed("other", 0, 0, body))
+
+        def expect(ground, line):
+            while True:
+                news = unpack(guest.message().payload)
+                if news.ground == ground and line in news.body:
+                    return
+
+        say(Access.COMMAND, Access.LISTEN)
+        expect(1, b"seat command")
+        for _ in range(2):
+            say(Access.LISTEN, Access.COMMAND)
+            expect(1, b"seat command")
+            expect(2, b"seat listen")
 
 
 def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):
     aircraft, _ = nodes.aircraft(0, "target")
     with aircraft, RawNats(nodes.servers.ports[1]) as guest:
         guest.subscribe("up.default.target.control")
+        nodes.introduce(0, guest, "guest")
         ground = ListedGround(1, Access.COMMAND, "0" * 32, True, False, "::1", 0.0)
 
         def say(fence, kind, body):
-            guest.publish(f"up.default.target.{kind}", pack("guest", fence, 100.0, 1, body))
+            guest.publish(f"up.default.target.{kind}", packed("guest", fence, 1, body))
 
         say(0, "control", GroundList((ground,)).encode())
         fence = 0
-        while b"seat command" not in (news := unpack(guest.message())).body:
+        while b"seat command" not in (news := unpack(guest.message().payload)).body:
             fence = news.fence
         say(fence - 1, "up", b'{"up": "for a former home"}\n')
         say(fence, "up", b'{"up": "last"}\n')
         assert "former" not in heard_until(aircraft, "last")
+
+
+def test_a_write_without_an_answer_keeps_control(nodes):
+    """The node has written the record of an aircraft that it was about to admit."""
+    waiting, _ = nodes.ground(0, "unanswered")
+    owner, control = nodes.ground(0, "unanswered", token="c" * 32)
+    (node,) = (each["node"] for each in nodes.programs[0].events if "node" in each)
+    data = {"air": "a" * 32, "control": control}
+    record = json.dumps({"node": node, "fence": 0, "data": data}).encode()
+    with RawNats(nodes.servers.ports[0]) as written:
+        written.publish("$KV.up-leases.aircraft.default.unanswered", record)
+    aircraft, token = nodes.aircraft(0, "unanswered", "a" * 32)
+    with waiting, owner, aircraft:
+        assert token == "a" * 32
+        owner.expect("seat command")
+        waiting.expect("seat listen")
+
+
+def test_an_aircraft_that_left_before_its_lease_came_may_return(nodes):
+    servers, port = nodes.servers, nodes.programs[0].airborne_port
+    until(lambda: nodes.figure(0, "leases") == 0, "the end of the aircraft before")
+    for number in range(3):
+        servers.pause(number)
+    with Client(port, "UP1 aircraft=hasty\n"):
+        until(lambda: nodes.connections(0) == 1, "the connection")
+    until(lambda: nodes.connections(0) == 0, "its end")
+    for number in range(3):
+        servers.resume(number)
+    until(lambda: nodes.figure(0, "leases") == 1, "the lease")
+    nodes.aircraft(0, "hasty")[0].close()
 
 
 def test_pairs_of_one_node_go_on_without_nats(nodes):

@@ -1,6 +1,7 @@
 """Messages between the nodes, and their age."""
 
 import json
+import math
 from contextlib import suppress
 
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from up.protocols.proxy_lines import Access
 from up_proxy.cluster import node_messages as messages
-from up_proxy.cluster.sender_ages import WINDOW_S, SenderAges
+from up_proxy.cluster.sender_ages import SETTLE_S, WINDOW_S, SenderAges
 from up_proxy.tenant_quota import Usage
 
 GROUND = messages.ListedGround(3, Access.COMMAND, "ab" * 16, True, False, "10.0.0.1", 0.25)
@@ -77,10 +78,19 @@ def test_numbers_of_grounds(number):
         messages.parse(json.dumps({"grounds": [words]}).encode())
 
 
+def test_a_new_sender_may_begin_with_old_messages():
+    """A partition ends, and its delayed messages come before the next one."""
+    ages = SenderAges()
+    for sent_s in (1000.0, 1001.0, 1002.0):
+        assert ages.age_s("n", sent_s, 2.0) > 2.0
+    assert ages.age_s("n", 1000.1, 2.0 + SETTLE_S) == pytest.approx(1.9 + SETTLE_S)
+    assert ages.age_s("n", 1002.4, 2.4 + SETTLE_S) == pytest.approx(SETTLE_S)
+
+
 def test_the_age_needs_no_common_clock():
     ages = SenderAges()
     # The sender's clock is 1,000 s ahead, the fastest delivery takes 1 ms.
-    assert ages.age_s("n", 1000.000, 0.003) == 0.0
+    assert ages.age_s("n", 1000.000, 0.003) == math.inf
     assert ages.age_s("n", 1000.999, 1.000) == pytest.approx(0.0)
     assert ages.age_s("n", 1001.000, 1.003) == pytest.approx(0.002)
     assert ages.age_s("n", 1002.000, 15.001) == pytest.approx(13.0)
