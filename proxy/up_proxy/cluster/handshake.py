@@ -44,7 +44,9 @@ class ClusterHandshake(Handshake):
             def admit(token: str) -> None:
                 super(ClusterHandshake, self)._admit(connection, replace(hello, token=token))
 
-            self._wait(connection, session.claim(hello.token), admit, self._refuse)
+            self._wait(
+                connection, self._claim(session, connection, hello.token), admit, self._refuse
+            )
         elif session.is_home:
             super()._admit(connection, hello)
         else:
@@ -90,7 +92,9 @@ class ClusterHandshake(Handshake):
                     session.air_lease.release()
                     super(ClusterHandshake, self)._admit_legacy(connection, silent)
 
-                self._wait(connection, session.claim(None), admit, self._refuse_legacy)
+                self._wait(
+                    connection, self._claim(session, connection, None), admit, self._refuse_legacy
+                )
                 return
             if not session.is_home:
                 self._check_guests(session)
@@ -112,6 +116,14 @@ class ClusterHandshake(Handshake):
         if len(session.guests.connections) > self._max_listeners:
             raise HelloError(FULL, "too many grounds for this aircraft")
 
+    async def _claim(
+        self, session: ClusterSession, connection: Connection, token: str | None
+    ) -> str:
+        claimed = await session.claim(token)
+        if connection.failure is not None and claimed != token:
+            session.air_lease.release()  # for a token that no client has
+        return claimed
+
     def _wait(
         self,
         connection: Connection,
@@ -129,8 +141,6 @@ class ClusterHandshake(Handshake):
                 claimed = await claim
                 if connection.failure is None:
                     admit(claimed)
-                elif claimed != token:
-                    session.air_lease.release()  # for a token that no client has
             except HelloError as refusal:
                 error = refusal
             except (NatsUnavailableError, JetStreamError):
