@@ -311,7 +311,7 @@ def _moved(value: _Vector, dot: _Vector, step_s: float) -> _Vector:
 
 
 def _read(path: Path) -> Element:
-    """Return the definition; raises ``FlightUnavailableError`` for what is not supported."""
+    """Return the definition; raises ``FlightUnavailableError`` for an unsupported one."""
     try:
         root = ElementTree.parse(path).getroot()
     except (OSError, ElementTree.ParseError) as error:

@@ -42,7 +42,7 @@ class FlightModel(Protocol):
 
 
 def chosen_model(choice: ModelChoice) -> ModelChoice:
-    """Return ``jsbsim`` or ``built-in``: what flies here by this choice."""
+    """Return ``jsbsim`` or ``built-in``, by the choice and by the installed packages."""
     if choice != "auto":
         return choice
     try:
