@@ -159,7 +159,7 @@ test-deb: deb
 
 # Not part of CI: under emulation each architecture takes minutes.
 test-arm: $(VENV)/.dev-ready
-	$(PY) -m tools.test_arm $(ARCH)
+	$(PY) -m tools.arm_tests $(ARCH)
 
 # constraints.txt: exact versions and hashes for servers and images.
 lock: dist

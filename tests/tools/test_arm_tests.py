@@ -4,29 +4,29 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tools import test_arm
+from tools import arm_tests
 
 ROOT = Path(__file__).parents[2]
 
 
 def test_each_missing_tool_is_named_with_its_package(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(test_arm, "BINFMT", tmp_path)
-    monkeypatch.setattr(test_arm.shutil, "which", lambda tool, path: None)
-    assert test_arm.main(["armhf"]) == 2
+    monkeypatch.setattr(arm_tests, "BINFMT", tmp_path)
+    monkeypatch.setattr(arm_tests.shutil, "which", lambda tool, path: None)
+    assert arm_tests.main(["armhf"]) == 2
     lines = capsys.readouterr().err.splitlines()
-    for tool, package in test_arm.TOOLS.items():
+    for tool, package in arm_tests.TOOLS.items():
         assert any(f" {tool}: " in each and each.endswith(package) for each in lines)
     (emulator,) = (each for each in lines if " qemu-arm " in each)
     assert "qemu-user-static" in emulator and "qemu-aarch64" not in "".join(lines)
 
 
 def test_the_chosen_tests_exist_and_its_packages_are_those_of_this_environment():
-    for each in (*test_arm.TESTS, *test_arm.UNSUPPORTED):
+    for each in (*arm_tests.TESTS, *arm_tests.UNSUPPORTED):
         file, _, name = each.partition("::")
         assert (ROOT / file).exists()
         assert not name or f"def {name}(" in (ROOT / file).read_text()
-    for name in (*test_arm.PURE, *test_arm.COMPILED, test_arm.FALLBACK):
-        assert test_arm.version(name)
+    for name in (*arm_tests.PURE, *arm_tests.COMPILED, arm_tests.FALLBACK):
+        assert arm_tests.version(name)
 
 
 def test_the_project_itself_has_no_code_for_a_processor():
@@ -45,5 +45,5 @@ def test_the_project_itself_has_no_code_for_a_processor():
 
 
 def test_the_processor_of_a_native_file_is_read():
-    machine = test_arm.cpu_of(Path(sys.executable).resolve())
+    machine = arm_tests.cpu_of(Path(sys.executable).resolve())
     assert machine != "unknown" and machine

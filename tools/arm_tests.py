@@ -1,4 +1,4 @@
-"""Runs chosen tests on ARM under emulation: ``python -m tools.test_arm [arm64] [armhf]``.
+"""Runs chosen tests on ARM under emulation: ``python -m tools.arm_tests [arm64] [armhf]``.
 
 A Debian 12 root of each architecture is made once, in build/arm/, from the mirror of this
 machine's apt. Its packages are extracted, not configured. Python packages come from the index, for
