@@ -31,12 +31,11 @@ TOOLS = {
     "update-binfmts": "binfmt-support",
 }
 """Programs, and the Debian packages that have them."""
-SYSTEM = ("python3", "dash", "coreutils", "procps")
+SYSTEM = ("python3", "dash", "coreutils", "procps", "libstdc++6")
 PURE = (
     "twisted", "attrs", "automat", "constantly", "hyperlink", "idna", "incremental",
     "typing-extensions", "pyserial", "pytest", "pluggy", "iniconfig", "packaging", "pygments",
-    "pytest-timeout", "pytest-xdist", "execnet", "sortedcontainers", "mcap",
-    "pyubx2", "pynmeagps", "pyrtcm", "smbus2",
+    "pytest-timeout", "pytest-xdist", "execnet", "sortedcontainers", "mcap", "smbus2",
 )  # fmt: skip
 FALLBACK = "zope.interface"
 """Its compiled part is optional. Debian's is too old for Twisted, so on armhf its Python files are
