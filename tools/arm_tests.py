@@ -36,6 +36,7 @@ PURE = (
     "twisted", "attrs", "automat", "constantly", "hyperlink", "idna", "incremental",
     "typing-extensions", "pyserial", "pytest", "pluggy", "iniconfig", "packaging", "pygments",
     "pytest-timeout", "pytest-xdist", "execnet", "sortedcontainers", "mcap", "smbus2",
+    "pynmeagps",
 )  # fmt: skip
 FALLBACK = "zope.interface"
 """Its compiled part is optional. Debian's is too old for Twisted, so on armhf its Python files are
