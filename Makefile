@@ -27,7 +27,7 @@ REVISION ?= 1
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test test-browser compile-tests check check-python check-phone bench pictures docs format schema schemas dist test-dist test-bundle deb test-deb lock version clean
+.PHONY: help run scenarios test test-browser compile-tests check check-python check-phone bench pictures docs format schema schemas dist test-dist test-bundle deb test-deb test-arm lock version clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
@@ -47,6 +47,7 @@ help:
 	@echo 'make test-bundle  a USB stick of these: installed without a network, rolled back, removed'
 	@echo 'make deb      Debian packages of daemon, proxy, runner and ground station, into dist/ (ARCH="amd64 arm64", REVISION=2)'
 	@echo 'make test-deb  installs, kills, upgrades and removes these under systemd in a container; as root'
+	@echo 'make test-arm chosen tests on arm64 and armhf under emulation (ARCH=armhf for one); as root'
 	@echo 'make lock     constraints.txt: exact versions and hashes for servers'
 	@echo 'make version  give every distribution the version of up/version.py'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
@@ -155,6 +156,10 @@ deb: $(VENV)/.dev-ready dist
 
 test-deb: deb
 	UP_REQUIRE_TOOLS=1 $(PY) -m pytest -s tests/dist/deb_trial.py
+
+# Not part of CI: under emulation each architecture takes minutes.
+test-arm: $(VENV)/.dev-ready
+	$(PY) -m tools.arm_tests $(ARCH)
 
 # constraints.txt: exact versions and hashes for servers and images.
 lock: dist

@@ -150,7 +150,6 @@ setup(
             "py.typed",
             "*.csv",
             "*.xml",
-            "*.gz",
             "airframes/*/*.yml",
             "scenarios/*.yml",
             "shim/*.[ch]",

@@ -14,14 +14,14 @@ from tests.support.showcase import Showcase, steepest
 from tests.support.waiting import DEADLINE_S
 
 ROOT = Path(__file__).parents[1]
-WITHOUT_AUTOBAHN = """
+WITHOUT_MODEL_AND_PAGE = """
 import sys
 
 
 class Without:
     def find_spec(self, name, path=None, target=None):
-        if name == "autobahn":
-            raise ModuleNotFoundError("No module named 'autobahn'", name=name)
+        if name in ("autobahn", "jsbsim"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
 
 sys.meta_path.insert(0, Without())
@@ -44,17 +44,17 @@ def test_moving_the_controller_to_the_pi_is_configuration_only(tmp_path):
     assert published[-1] - published[0] > 60
 
 
-def test_without_flight_model_and_autobahn_a_recorded_flight_flies_and_no_page(tmp_path):
-    recorded = ROOT / "simulator" / "up_simulator" / "aircraft" / "recorded_flight.csv.gz"
-    (tmp_path / "sitecustomize.py").write_text(WITHOUT_AUTOBAHN)
-    showcase = Showcase(tmp_path, "--replay", str(recorded), PYTHONPATH=str(tmp_path)).ready()
+def test_without_jsbsim_and_autobahn_the_built_in_model_flies_and_no_page(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(WITHOUT_MODEL_AND_PAGE)
+    showcase = Showcase(tmp_path, PYTHONPATH=str(tmp_path)).ready()
     try:
         (line,) = (each for each in showcase.said().splitlines() if each.startswith("  page "))
         assert "autobahn" in line and "http:" not in showcase.said()
         (model,) = showcase.events("aircraft", "flight_selected")
-        assert model["source"] != "jsbsim"
-        frames = showcase.telemetry(10)
-        assert len({frame["orientation"]["roll"] for frame in frames}) > 3
+        assert model["source"] == "built-in"
+        # The circling pilot holds a bank.
+        frames = showcase.telemetry(60)
+        assert 5 < steepest(frames) < 45
     finally:
         assert showcase.stop(signal.SIGTERM) == 0
 

@@ -1,21 +1,22 @@
-"""The flight dynamics: an airframe's JSBSim model, its servos, its drive, in the weather."""
+"""The flight dynamics: an airframe's flight model, its servos, its drive, in the weather."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
 
 from up_rig.imu import Motion
 from up_simulator.aircraft.airframe import Airframe
 from up_simulator.aircraft.flight import FlightState, Servos
 from up_simulator.aircraft.ground import GroundRun, is_soft
-from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
+from up_simulator.aircraft.model import FOOT_M, FlightModel, ModelChoice, chosen_model, load_model
 from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.motor import Battery, Motor
 from up_simulator.aircraft.servos import ServoRack
 from up_simulator.aircraft.start import (
+    MERIDIAN_M,
+    PARALLEL_M,
     START_LATITUDE_DEG,
     START_LONGITUDE_DEG,
     Start,
@@ -25,8 +26,6 @@ from up_simulator.aircraft.weather import Air, Weather
 
 _Move = tuple[Callable[[float], None], int, float, float]
 _NEWTON_LBS = 1 / 4.4482216
-# Radii of the Earth (WGS 84) at the start, along the meridian and about the axis.
-_MERIDIAN_M, _PARALLEL_M = 6_373_326.0, 4_108_102.0
 _INCH_M = 0.0254
 _CHANNELS = {"ailerons": 0, "elevator": 1, "rudder": 3}
 _READ = {
@@ -65,7 +64,7 @@ class FlightDynamics:
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
     With ``may_land`` a soft contact with the ground is none: the aircraft slides and stops.
-    Raises ``FlightUnavailableError`` where JSBSim is missing.
+    ``model`` is the flight model that flies. Raises ``FlightUnavailableError`` where it cannot.
     """
 
     STEP_S = 0.002
@@ -78,8 +77,10 @@ class FlightDynamics:
         seed: int = 1,
         *,
         may_land: bool = False,
+        model: ModelChoice = "auto",
     ) -> None:
         self.airframe = airframe
+        self.model = chosen_model(model)
         self.weather = weather or Weather()
         self.crash: str | None = None
         self.motor_works = True
@@ -197,10 +198,10 @@ class FlightDynamics:
         self._state = None
         self._motion = None
         # A NaN state survives new initial conditions: rebuild the model.
-        self._fdm: Any = load_model(airframe.model_path, self.STEP_S)
+        self._fdm: FlightModel = load_model(airframe.model_path, self.STEP_S, self.model)
         seed = self._seed + self._launches
         set_initial(self._fdm, start, airframe.launch, self.weather, seed)
-        self._read = {name: reader(self._fdm, node) for name, node in _READ.items()}
+        self._read = {name: self._fdm.reader(node) for name, node in _READ.items()}
         self._read_airspeed = self._read["airspeed"]
         self._read_height, self._read_load = self._read["height"], self._read["load"]
         self._imu_m = self._imu_from_pilot()
@@ -209,7 +210,7 @@ class FlightDynamics:
         self._motor = Motor(airframe.motor, self._battery) if airframe.has_motor else None
         self._servos.jump((1500, 1500, 1000 + 1000 * start.throttle, 1500))
         if self._motor is not None:
-            self._set_thrust = writer(self._fdm, MOTOR)
+            self._set_thrust = self._fdm.writer(MOTOR)
             self._motor.spin_up(start.throttle, self._read_airspeed() * FOOT_M)
             self._set_thrust(self._motor.thrust_n * _NEWTON_LBS)
         self._air = Air(self._fdm, self.weather)
@@ -220,7 +221,7 @@ class FlightDynamics:
         self._launches += 1
 
     def _imu_from_pilot(self) -> tuple[float, float, float]:
-        """Return where the IMU is from JSBSim's pilot, whose acceleration it computes; body, m."""
+        """Return where the IMU is from the model's pilot, whose acceleration it has; body, m."""
         fdm, imu = self._fdm, self.airframe.imu
         pilot = (
             (fdm[f"metrics/eyepoint-{axis}-in"] - fdm[f"inertia/cg-{axis}-in"]) * _INCH_M
@@ -251,7 +252,7 @@ class FlightDynamics:
             servo = getattr(self.airframe.servos, name)
             for node, travel in servo.moves.items():
                 scaled = math.radians(travel) if node.endswith("-rad") else travel
-                yield writer(self._fdm, node), channel, float(servo.neutral_us), scaled / 500
+                yield self._fdm.writer(node), channel, float(servo.neutral_us), scaled / 500
 
     def _watch(self) -> None:
         height_m, load_g = self._read_height() * FOOT_M, self._read_load()
@@ -296,8 +297,8 @@ class FlightDynamics:
             sideslip_deg=value["beta"],
             load_factor_g=value["load"],
             climb_m_s=-value["down_speed"] * FOOT_M,
-            north_m=math.radians(value["latitude"] - START_LATITUDE_DEG) * _MERIDIAN_M,
-            east_m=math.radians(value["longitude"] - START_LONGITUDE_DEG) * _PARALLEL_M,
+            north_m=math.radians(value["latitude"] - START_LATITUDE_DEG) * MERIDIAN_M,
+            east_m=math.radians(value["longitude"] - START_LONGITUDE_DEG) * PARALLEL_M,
             **self._drive(),
             wind_north_m_s=value["wind_north"] * FOOT_M,
             wind_east_m_s=value["wind_east"] * FOOT_M,

@@ -8,10 +8,9 @@ import subprocess
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
 from up_simulator.aircraft.flight import FlightUnavailableError
-from up_simulator.aircraft.model import FOOT_M, has_property, load_model
+from up_simulator.aircraft.model import FOOT_M, JsbsimModel
 
 MOTOR = "external_reactions/motor/magnitude"
 _LIMIT_S = 60.0
@@ -54,7 +53,7 @@ def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
     except ImportError:
         return _UNAVAILABLE
     try:
-        fdm = load_model(path, 0.002)
+        fdm = JsbsimModel(path, 0.002)
         fdm["ic/h-sl-ft"] = 1000.0
         fdm["ic/vt-fps"] = airspeed_m_s / FOOT_M
         fdm.run_ic()
@@ -68,15 +67,15 @@ def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
     except (jsbsim.BaseError, RuntimeError, ValueError) as error:
         sys.stderr.write(f"{error}\n")
         return _REFUSED
-    unknown = [name for name in properties if not has_property(fdm, name)]
+    unknown = [name for name in properties if name not in fdm]
     for name in unknown:
         matches = difflib.get_close_matches(name, _catalog(fdm), n=1)
         sys.stdout.write(f"{_MARK}{name} {''.join(matches)}\n")
     return _UNKNOWN if unknown else 0
 
 
-def _catalog(fdm: Any) -> Iterable[str]:
-    return [line.split(" ")[0] for line in str(fdm.query_property_catalog("/")).splitlines()]
+def _catalog(fdm: JsbsimModel) -> Iterable[str]:
+    return [line.split(" ")[0] for line in str(fdm.fdm.query_property_catalog("/")).splitlines()]
 
 
 def main() -> None:

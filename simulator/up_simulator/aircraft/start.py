@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from up_simulator.aircraft.airframe_file import LaunchConfig
-from up_simulator.aircraft.model import FOOT_M
+from up_simulator.aircraft.model import FOOT_M, FlightModel
 from up_simulator.aircraft.weather import Weather
 
 GROUND_M = 250.0
 START_LATITUDE_DEG = 50.0
 START_LONGITUDE_DEG = 14.5
+# Radii of the Earth (WGS 84) at the start, along the meridian and about the axis.
+MERIDIAN_M, PARALLEL_M = 6_373_326.0, 4_108_102.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +38,10 @@ class Start:
     throw_m_s: float | None = None
 
 
-def set_initial(fdm: Any, start: Start, launch: LaunchConfig, weather: Weather, seed: int) -> None:
-    """Put JSBSim where a flight begins; ``fdm`` has its model and has not run yet."""
+def set_initial(
+    fdm: FlightModel, start: Start, launch: LaunchConfig, weather: Weather, seed: int
+) -> None:
+    """Put the flight model where a flight begins; ``fdm`` has its model and has not run yet."""
     airspeed_m_s = launch.airspeed_m_s if start.airspeed_m_s is None else start.airspeed_m_s
     if start.throw_m_s is not None:
         from_deg = weather.wind_from_deg - start.heading_deg

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 from up_simulator.aircraft.flight import FlightState
-from up_simulator.aircraft.recorded_flight import COLUMNS
 
 TOPIC = "simulator.truth"
 PERIOD_S = 0.05
@@ -22,14 +21,12 @@ NAMES = {
     )
 }  # fmt: skip
 """The name of each value in the log, and in a ``FlightState``."""
-RECORDED_NAMES = {name: field for name, field in NAMES.items() if field in COLUMNS}
-"""Those that a recorded flight knows."""
 _DIGITS = {"latitude_deg": 8, "longitude_deg": 8}
 
 
-def truth_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, float]:
+def truth_of(state: FlightState) -> dict[str, float]:
     """Return the values by their names in the log; omits values that are not numbers."""
-    values = {name: getattr(state, field) for name, field in names.items()}
+    values = {name: getattr(state, field) for name, field in NAMES.items()}
     return {
         name: round(value, _DIGITS.get(name, 4))
         for name, value in values.items()
@@ -37,6 +34,6 @@ def truth_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, flo
     }
 
 
-def record_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, Any]:
+def record_of(state: FlightState) -> dict[str, Any]:
     """Return the data of ``black_box.record``, by which a companion on board logs something."""
-    return {"topic": TOPIC, "content": truth_of(state, names)}
+    return {"topic": TOPIC, "content": truth_of(state)}

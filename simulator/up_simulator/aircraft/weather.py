@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
-from up_simulator.aircraft.model import FOOT_M, writer
+from up_simulator.aircraft.model import FOOT_M, FlightModel
 
 Turbulence = Literal["none", "light", "moderate", "severe"]
 TURBULENCE: tuple[Turbulence, ...] = ("none", "light", "moderate", "severe")
@@ -51,14 +51,14 @@ class Weather:
 
 
 class Air:
-    """Applies the weather to JSBSim."""
+    """Applies the weather to the flight model."""
 
-    def __init__(self, fdm: Any, weather: Weather) -> None:
+    def __init__(self, fdm: FlightModel, weather: Weather) -> None:
         self._gusts = weather.gusts
         self._end_s = max((gust.at_s + gust.duration_s for gust in weather.gusts), default=-1.0)
         self._is_blowing = False
         self._set = [
-            writer(fdm, f"atmosphere/gust-{axis}-fps") for axis in ("north", "east", "down")
+            fdm.writer(f"atmosphere/gust-{axis}-fps") for axis in ("north", "east", "down")
         ]
         if weather.turbulence != "none":
             fdm["atmosphere/turb-type"] = _TUSTIN

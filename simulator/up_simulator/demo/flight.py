@@ -183,7 +183,6 @@ class DemoFlight:
             controller=self._options.controller,
             airframe=self._airframe,
             uplink_port=self._ports.uplink if self._options.link else 0,
-            is_at_start=not self._options.replay,
             is_plain=self._options.plain,
             has_mavlink=self._options.mavlink,
         )
@@ -209,7 +208,7 @@ class DemoFlight:
         radio = options.radio if options.radio.startswith(("js", "/")) else "circle"
         words: list[str | Path] = [
             "-m", "up_simulator", "start",
-            "--airframe", options.airframe, "--wind", options.wind,
+            "--airframe", options.airframe, "--model", options.model, "--wind", options.wind,
             "--turbulence", options.turbulence, "--board", options.board, "--radio", radio,
             "--radio-socket", folder / "radio", "--gains", folder / "config" / "pids.yml",
             "--pty-link", folder / "board", "--general-port", str(ports.general),
@@ -218,8 +217,6 @@ class DemoFlight:
         if options.link:
             words += ["--link", options.link, "--link-port", str(ports.uplink)]
             words += ["--link-to", f"127.0.0.1:{ports.airborne}"]
-        if options.replay:
-            words += ["--replay", options.replay]
         if options.state_log:
             words += ["--state-log", options.state_log]
         return self._add("aircraft", *words)

@@ -19,6 +19,7 @@ from up.errors import UserError
 from up.output import print_problems
 from up_ground.web.listen_address import parse_listen
 from up_simulator.aircraft import AirframeError, airframe_names
+from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.demo.flight import DemoFlight
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import handle
@@ -28,7 +29,6 @@ from up_simulator.harness.start_options import (
     TURBULENCE,
     link_settings,
     new_file,
-    recording,
     wind_m_s,
 )
 from up_simulator.harness.user_log import print_line
@@ -128,6 +128,7 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
         metavar="RADIO",
         help="what moves the sticks: circle (default), keyboard, js0",
     )
+    parser.add_argument("--model", choices=MODELS, default="auto", help=MODEL_HELP)
     parser.add_argument(
         "--board",
         choices=BOARDS,
@@ -160,7 +161,6 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
         metavar="ADDRESS:PORT",
         help="where the ground station for a browser listens; default 127.0.0.1:8080",
     )
-    parser.add_argument("--replay", type=recording, help="fly a recorded flight, not the model")
     parser.add_argument("--state-log", type=new_file, help="write the true state there, as CSV")
     parser.add_argument("--any-ports", action="store_true", help="do not try the usual ports")
     options: argparse.Namespace = parser.parse_args(arguments)

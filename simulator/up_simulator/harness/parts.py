@@ -11,8 +11,7 @@ from typing import Any
 import yaml
 
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
-from up_simulator.aircraft.flight import FlightSource, FlightUnavailableError
-from up_simulator.aircraft.recorded_flight import read_recording
+from up_simulator.aircraft.model import MODEL_TITLES
 from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.firmware.build import FIRMWARE, BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import drawn_errors
@@ -20,24 +19,17 @@ from up_simulator.firmware.preparation import SettingsError, cached_eeprom
 from up_simulator.harness.user_log import Log
 
 
-def make_flight(options: argparse.Namespace, airframe: Airframe, log: Log) -> FlightSource:
-    """Return the flight that the options select, or the recorded flight if nothing else is usable.
+def make_flight(options: argparse.Namespace, airframe: Airframe, log: Log) -> FlightDynamics:
+    """Return the flight that the options select; ``log`` gets the choice.
 
-    ``log`` gets the choice. Raises ``FlightUnavailableError`` for an invalid recording.
+    Raises ``FlightUnavailableError``.
     """
-    if options.replay is not None:
-        text = f"flying the recorded flight {options.replay}: the servos have no effect"
-        log(text, code="flight_selected", source="recording")
-        return read_recording(options.replay)
     weather = Weather(wind_m_s=options.wind, turbulence=options.turbulence)
-    try:
-        flight = FlightDynamics(airframe, Start(), weather, options.seed, may_land=True)
-    except FlightUnavailableError as error:
-        text = f"{error}: flying a recorded flight, the servos have no effect"
-        log(text, code="flight_selected", source="recording", reason=str(error))
-        return read_recording(None)
-    text = f"flying {airframe.title} by JSBSim: wind {options.wind:g} m/s"
-    log(f"{text}, turbulence {options.turbulence}", code="flight_selected", source="jsbsim")
+    flight = FlightDynamics(
+        airframe, Start(), weather, options.seed, may_land=True, model=options.model
+    )
+    text = f"flying {airframe.title} by {MODEL_TITLES[flight.model]}: wind {options.wind:g} m/s"
+    log(f"{text}, turbulence {options.turbulence}", code="flight_selected", source=flight.model)
     return flight
 
 

@@ -12,8 +12,7 @@ from up.cli.option_parser import bounded_number, port_number
 from up_ground.key_store import KeyStore
 from up_ground.token_store import state_folder
 from up_rig.sticks import StickMove, SticksError, read_sticks
-from up_simulator.aircraft.flight import FlightUnavailableError
-from up_simulator.aircraft.recorded_flight import read_recording
+from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.harness.uplink import UplinkError, read_link
 from up_simulator.link.model import LinkSettings
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
@@ -21,7 +20,7 @@ from up_simulator.radio.sticks import RadioError
 from up_simulator.verbs.catalogue import verb_parser
 
 DESCRIPTION = """\
-A virtual aircraft in real time, until Ctrl-C: a flight dynamics model (JSBSim) in wind and
+A virtual aircraft in real time, until Ctrl-C: a flight dynamics model in wind and
 turbulence, the real firmware on a simulated chip with its serial line on a pty, and the airborne
 phone on sockets."""
 
@@ -54,7 +53,7 @@ examples:
   up-sim start --no-board --orientation tcp
       a phone alone, as in Black Box Mode
   up-sim start --state-log truth.csv
-      write the true state 50 times a second; --replay truth.csv flies it again
+      write the true state 50 times a second
 
   up-sim start --pty-link /tmp/board --link "delay=150 jitter=50 loss=3"
       Raspilot reaches its proxy (127.0.0.1:3003) through port 3005, as over the mobile network
@@ -96,6 +95,7 @@ def _add_flight(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--airframe", default="glider", metavar="NAME", help="glider (default), wing, or your own"
     )
+    group.add_argument("--model", choices=MODELS, default="auto", help=MODEL_HELP)
     group.add_argument(
         "--wind", type=wind_m_s, default=3.0, metavar="M_S", help="from the south, default 3"
     )
@@ -103,12 +103,6 @@ def _add_flight(group: argparse._ArgumentGroup) -> None:
         "--turbulence", choices=TURBULENCE, default="light", help="default %(default)s"
     )
     group.add_argument("--seed", type=int, default=1, metavar="N", help="of wind and all noise")
-    group.add_argument(
-        "--replay",
-        type=recording,
-        metavar="FILE",
-        help="fly a recorded flight (a state log) in a loop",
-    )
     group.add_argument(
         "--state-log", type=new_file, metavar="FILE", help="write the true state there, as CSV"
     )
@@ -243,15 +237,6 @@ def _add_link(group: argparse._ArgumentGroup) -> None:
         metavar="HOST:PORT",
         help="the proxy's side for aircraft, 127.0.0.1:3003",
     )
-
-
-def recording(text: str) -> Path:
-    """Return the path of a recorded flight that can be flown; raises ``ArgumentTypeError``."""
-    try:
-        read_recording(Path(text))
-    except FlightUnavailableError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
-    return Path(text)
 
 
 def new_file(text: str) -> Path:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import secrets
 from collections.abc import Awaitable, Callable
-from functools import partial
 from typing import Any
 
 from twisted.internet.task import LoopingCall
@@ -13,8 +12,8 @@ from twisted.internet.task import LoopingCall
 from up.commands.board_schema import FLIGHT_MODES, MODE_TEXTS
 from up_rig.pty_line import PtyLine
 from up_simulator.aircraft import Airframe, load_airframe
-from up_simulator.aircraft.recorded_flight import RecordedFlight, StateLog
-from up_simulator.aircraft.truth import NAMES, RECORDED_NAMES, record_of
+from up_simulator.aircraft.state_log import StateLog
+from up_simulator.aircraft.truth import record_of
 from up_simulator.betaflight.board import BetaflightBoard
 from up_simulator.betaflight.packets import LINE as BETAFLIGHT_LINE
 from up_simulator.betaflight.world import BetaflightWorld, NoLine
@@ -114,7 +113,6 @@ class VirtualAircraft:
     def _add_board(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
     ) -> Callable[[], None]:
-        has_motor = airframe.has_motor and options.replay is None
         monitor = LineMonitor()
 
         def mode() -> str:
@@ -127,7 +125,7 @@ class VirtualAircraft:
             options.radio,
             options.sticks,
             options.controller,
-            has_motor=has_motor,
+            has_motor=airframe.has_motor,
             is_armed=True,
             log=self._log,
             on_leave=on_leave,
@@ -180,8 +178,7 @@ class VirtualAircraft:
         def log(text: str, /, *, code: str = "phone", **fields: Any) -> None:
             self._log(f"phone: {text}", code=code, **fields)
 
-        names = RECORDED_NAMES if isinstance(self.flight, RecordedFlight) else NAMES
-        record = partial(record_of, names=names) if options.truth else None
+        record = record_of if options.truth else None
         find = _make_find(self._reactor, options)
         return PythonHandset(
             self._reactor,

@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from up.config import items, key, mapping, section
 from up.fields import Constraint
+from up_simulator.aircraft.model import ModelChoice
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.expectation import Expectation
 from up_simulator.scenario.initial_conditions import (
@@ -145,6 +146,10 @@ class Scenario:
         " same source compiled for this machine. auto: firmware if it can be built, otherwise host."
         " direct: no flight computer, the receiver is connected to the servos. betaflight:"
         " Betaflight's own program, betaflight_SITL on the search path.",
+    )
+    model: ModelChoice = key(
+        "auto",
+        "The flight model. auto: JSBSim where it is installed, otherwise the built-in one.",
     )
     eeprom: Literal["prepared", "blank", "spoiled"] = key(
         "prepared",

@@ -17,6 +17,7 @@ from typing import TextIO
 from up.config import ConfigErrors
 from up.fields import printable
 from up.output import StatusLine, print_problems
+from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.betaflight.board import find_program
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.harness.child import request_death_signal
@@ -76,6 +77,7 @@ class Job:
         (self.folder / SUMMARY).unlink(missing_ok=True)
         command = [sys.executable, "-m", "up_simulator.cli", "fly", str(self.path), "--quiet"]
         command += ["--output", str(options.output)]
+        command += ["--model", options.model] if options.model else []
         command += [] if options.picture else ["--no-picture"]
         self.began_s = time.monotonic()
         self.process = subprocess.Popen(
@@ -260,6 +262,7 @@ def _parser() -> argparse.ArgumentParser:
         "all", "Flies every scenario that is shipped and closes with how many held.", EPILOG
     )
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
+    parser.add_argument("--model", choices=MODELS, help=MODEL_HELP)
     parser.add_argument("--picture", action="store_true", help="draw pictures, too")
     parser.add_argument(
         "--processes", type=int, choices=range(1, 9), default=2, metavar="N", help="default 2"

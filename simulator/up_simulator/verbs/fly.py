@@ -11,6 +11,7 @@ from pathlib import Path
 from up.cli.cli_error import CliError, UsageError
 from up.fields import printable
 from up.output import program_line
+from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -88,6 +89,7 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
             ("--seed", "seed", options.seed),
             ("--duration", "duration_s", options.duration),
             ("--board", "board", options.board),
+            ("--model", "model", options.model),
         )
         if value is not None
     ]
@@ -149,6 +151,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--seed", metavar="N", help="of turbulence and all noise")
     parser.add_argument("--duration", metavar="SECONDS", help="how long to fly")
     parser.add_argument("--board", choices=BOARDS, help="the board (default: the scenario's)")
+    parser.add_argument("--model", choices=MODELS, help=MODEL_HELP)
     parser.add_argument(
         "--set",
         action="append",

@@ -8,9 +8,9 @@ from up_simulator.aircraft import FlightDynamics, Start, load_airframe
 TICK_S = 0.02
 
 
-def launched(name, **start):
+def launched(name, model="auto", **start):
     values = {"height_m": 600.0, **start}
-    return FlightDynamics(load_airframe(name), Start(**values))
+    return FlightDynamics(load_airframe(name), Start(**values), model=model)
 
 
 def move(flight, ailerons=0.0, elevator=0.0, throttle_us=1000.0, rudder=0.0):
@@ -49,9 +49,9 @@ class Glide:
     ratio: float
 
 
-def glide(name, elevator_us, seconds=36.0):
+def glide(name, elevator_us, seconds=36.0, model="auto"):
     """Go there slowly, settle, and take the mean of the last third."""
-    flight = launched(name)
+    flight = launched(name, model)
     for tick in range(300):
         move(flight, wings_level(flight.state), elevator_us * tick / 300)
         flight.advance(TICK_S)
@@ -62,9 +62,9 @@ def glide(name, elevator_us, seconds=36.0):
     return Glide(elevator_us, airspeed, sink, math.sqrt(airspeed**2 - sink**2) / sink)
 
 
-def stall(name):
+def stall(name, model="auto"):
     """Pull slowly with level wings until the lift breaks: the slowest at about 1 g until then."""
-    flight = launched(name)
+    flight = launched(name, model)
     slowest, elevator = 99.0, 0.0
     for _ in range(3000):
         state = flight.state

@@ -22,7 +22,6 @@ from tests.support.tools import need_peer
 from tests.support.virtual_environment import REPOSITORY
 from tests.support.waiting import until
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
-from up_simulator.aircraft.recorded_flight import read_recording
 from up_simulator.betaflight.board import FRAME_US, SETTINGS, BetaflightBoard
 from up_simulator.betaflight.packets import LINE, MSP_PORT, PWM_PORT
 from up_simulator.betaflight.world import BetaflightWorld
@@ -141,7 +140,7 @@ def test_the_settings_that_the_cogs_page_advises_are_those_that_fly():
 
 
 def test_without_the_program_and_without_its_settings_there_is_no_board(tmp_path):
-    flight = read_recording(None)
+    flight = FlightDynamics(load_airframe("glider"))
     with pytest.raises(BoardUnavailableError, match="no-such-program"):
         BetaflightBoard(flight, "no-such-program")
     # A file without the right to be executed, and one that is not a program.

@@ -118,7 +118,7 @@ def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
         ["--board", "chip"],
         ["--link", "dealy=5"],
         ["--page", "nowhere"],
-        ["--replay", "missing.csv"],
+        ["--model", "simple"],
         ["--state-log", "/nowhere/x.csv"],
     ],
 )

@@ -7,7 +7,7 @@ from twisted.internet.task import Clock
 
 from up_rig.pty_line import PtyLine
 from up_rig.sticks import read_sticks
-from up_simulator.aircraft.recorded_flight import read_recording
+from up_simulator.aircraft import FlightDynamics, load_airframe
 from up_simulator.firmware.direct_board import DirectBoard
 from up_simulator.harness.real_time import RealTimeFlight, RealTimeWorld
 from up_simulator.harness.user_log import LogLine
@@ -48,7 +48,7 @@ class Flown:
         self.clock.advance(100.0)
         self.board = EchoBoard()
         self.line = PtyLine()
-        world = World(read_recording(None), self.board)
+        world = World(FlightDynamics(load_airframe("glider")), self.board)
         radio = ScriptedRadio(read_sticks(script))
         self.made = RealTimeWorld(world, self.line, radio, self.clock, self.log)
 

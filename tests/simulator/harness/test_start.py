@@ -111,7 +111,7 @@ def test_a_reader_that_stops_does_no_harm(tmp_path):
         ("--airfram", "wing"),
         ("--elf", "missing.elf"),
         ("--gains", "missing.yml"),
-        ("--replay", "missing.csv"),
+        ("--model", "simple"),
         ("--state-log", "/nowhere/truth.csv"),
     ],
 )

@@ -38,13 +38,14 @@ def is_for_host(scenario):
     return scenario.board == "host" or (total_s > LONG_S and not is_chips)
 
 
-def fly(name):
+def fly(name, model="auto"):
     """Fly a shipped scenario and its control run; return what did not hold."""
     build_firmware()
     scenario, title = SCENARIOS[name], "the firmware on a simulated ATmega328P"
     if name.endswith(SECOND_OF_PAIR):
         assert scenario.control == SCENARIOS[name.replace(SECOND_OF_PAIR, "-on-arduino")].control
         scenario = dataclasses.replace(scenario, control=None)
+    scenario = dataclasses.replace(scenario, model=model)
     if is_for_host(scenario):
         need_tool("g++")
         scenario = dataclasses.replace(scenario, board="host")
