@@ -162,6 +162,12 @@ class RawNats:
         while self._event() is not nats.Pong:
             pass
 
+    def store(self, subject, payload):
+        """Publish to a stream, and wait until it is stored."""
+        self.subscribe("_INBOX.stored")
+        self.socket.sendall(nats.publish(subject, payload, reply="_INBOX.stored"))
+        assert b'"seq"' in self.message().payload
+
     def subscribe(self, subject):
         self.socket.sendall(nats.subscribe(subject, 1))
 

@@ -190,7 +190,7 @@ def test_a_write_without_an_answer_keeps_control(nodes):
     data = {"air": "a" * 32, "control": control}
     record = json.dumps({"node": node, "fence": 0, "data": data}).encode()
     with RawNats(nodes.servers.ports[0]) as written:
-        written.publish("$KV.up-leases.aircraft.default.unanswered", record)
+        written.store("$KV.up-leases.aircraft.default.unanswered", record)
     aircraft, token = nodes.aircraft(0, "unanswered", "a" * 32)
     with waiting, owner, aircraft:
         assert token == "a" * 32
