@@ -156,7 +156,7 @@ def first_run(options: argparse.Namespace, key: str, password: str) -> str:
     return "\n".join(
         [
             *lines,
-            f"dpkg --install /boot/firmware/{FOLDER}/*.deb",
+            *([f"dpkg --install /boot/firmware/{FOLDER}/*.deb"] if options.deb else []),
             "sed -i 's/ systemd\\.[^ ]*//g' /boot/firmware/cmdline.txt",
             f"rm -f /boot/firmware/{SCRIPT}",
             "exit 0",

@@ -119,8 +119,8 @@ class LeaseStore:
     ) -> Lease:
         """Acquire a key; see the module. `on_change` is called when the state or fence changes.
 
-        A record of this node that it does not hold is of a write without an answer: the key is
-        free.
+        A record with this node's id but without its lease comes from a write that got no answer:
+        the key is free.
         """
         expected, record = 0, None
         for _ in range(MAX_TRIES):

@@ -190,7 +190,7 @@ def connect(options: Mapping[str, object]) -> bytes:
 
 @lru_cache(2**15)
 def _pub(to: str) -> bytes:
-    """Return the begin of PUB; the subjects of a relay repeat. Raises ValueError."""
+    """Return the first part of PUB; the subjects of a relay repeat. Raises ValueError."""
     return b"PUB %b " % _checked(to).encode("ascii")
 
 

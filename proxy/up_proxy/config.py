@@ -50,7 +50,7 @@ class LimitsConfig:
 
 @dataclass(frozen=True, slots=True)
 class QuotaConfig:
-    """What the tenant may use at all nodes of its cluster together; 0: as much as it likes."""
+    """What the tenant may use at all nodes of its cluster together; 0: no limit."""
 
     aircraft: int = key(0, "Connected aircraft.", minimum=0, maximum=1000000)
     grounds: int = key(0, "Connected grounds.", minimum=0, maximum=1000000)

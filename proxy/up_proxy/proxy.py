@@ -164,6 +164,8 @@ class Proxy:
         """Return why it accepts no new connection; empty: it does."""
         if self._are_ports_closed:
             return "draining"
+        if not self.is_healthy():
+            return "port_closed"
         return CLUSTER if self._node is not None and not self._node.is_ready else ""
 
     def page(self) -> str:

@@ -14,6 +14,8 @@ METER_STEP_S = 60.0
 """The hour begins and ends at such a step."""
 FRESH_S = 3.0
 """A node that sends no heartbeat for longer has no connections."""
+QUOTA_KEYS = {"hour_bytes": "mb_per_hour"}
+"""How a kind of usage is called in proxy.yml, where it is not called alike."""
 _KINDS = {Side.AIRBORNE: "aircraft", Side.GROUND: "grounds"}
 
 
@@ -56,18 +58,19 @@ class TenantQuota:
     def take(self, side: Side, *, is_needed: bool = False) -> None:
         """Count a new connection. Raises HelloError with code `quota`.
 
-        The bytes do not refuse one that `is_needed`: an aircraft may be in flight.
+        One that `is_needed` is counted, and never refused: an aircraft may be in flight.
         """
         kind = _KINDS[side]
         if self.limits:
             used = self.used()._asdict()
-            for each in (kind,) if is_needed else (kind, "hour_bytes"):
+            for each in () if is_needed else (kind, "hour_bytes"):
                 if used[each] >= self.limits.get(each, used[each] + 1):
-                    raise HelloError(QUOTA, f"the tenant has used its quota of {each}")
+                    name = QUOTA_KEYS.get(each, each)
+                    raise HelloError(QUOTA, f"the tenant has used its quota of {name}")
         self._add(kind, 1)
 
     def give_back(self, side: Side) -> None:
-        """Count a connection no more that was refused for another reason."""
+        """Undo `take` for a connection that was refused for another reason."""
         self._add(_KINDS[side], -1)
 
     def was_here(self, aircraft: str) -> bool:
@@ -93,7 +96,8 @@ class TenantQuota:
         self._others = {n: row for n, row in self._others.items() if now_s - row[0] <= HOUR_S}
 
     def _add(self, kind: str, count: int) -> None:
-        self.own = self.own._replace(**{kind: getattr(self.own, kind) + count})
+        # At least 0: an update in between may have counted without it.
+        self.own = self.own._replace(**{kind: max(0, getattr(self.own, kind) + count)})
 
     def _hour_bytes(self, now_s: float, total_bytes: int) -> int:
         totals = self._totals

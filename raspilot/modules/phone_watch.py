@@ -48,7 +48,10 @@ class PhoneWatch(BaseStartedModule):
 
     def _on_flight_state(self, command: FlightStateCommand) -> None:
         """Count an aircraft that may be in flight as armed."""
-        self._is_armed = command.is_armed or command.is_in_flight is not False
+        is_armed = command.is_armed or command.is_in_flight is not False
+        if is_armed != self._is_armed:
+            self._is_armed = is_armed
+            self._report()
 
     def _repeat(self) -> None:
         self._timer = self.context.reactor.callLater(REPEAT_S, self._repeat)

@@ -22,8 +22,8 @@ CLIMB_CHANGE_M_S2 = 4.0
 """How fast the demanded climb changes: about as fast as pitch follows. The motor follows later;
 until then the airspeed gives the energy, less than 1 m/s of it."""
 IDLE_THROTTLE, IDLE_FASTER_M_S = 0.1, 2.0
-"""Below this throttle pitch gradually tolerates an airspeed that is higher by this; not in a long
-descent, which is slower then."""
+"""Near idle, below this throttle, pitch accepts up to this much excess airspeed; not in a long
+descent, which would become slower."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
 GLIDE_MARGIN = 1.15

@@ -41,6 +41,17 @@ def test_aircraft_are_bounded():
         bench.hello_air("c")
 
 
+def test_the_count_never_refuses_an_aircraft_that_may_be_in_flight():
+    with Bench(quota={"aircraft": 1}) as bench:
+        first, _ = bench.hello_air("a")
+        bench.pass_time(SAMPLE_S + 0.25, heartbeats=[first])
+        first.close()
+        bench.pass_time(4.0)
+        bench.hello_air("b")
+        bench.hello_air("a")
+        assert refusal(bench.air("UP1 aircraft=c\n")) == "quota"
+
+
 def test_grounds_are_bounded_and_the_owner_of_control_resumes_it():
     with Bench(quota={"grounds": 2}) as bench:
         owner, token = bench.hello_ground("a")

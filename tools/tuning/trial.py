@@ -87,7 +87,7 @@ class Trial:
             throttle=throttle,
             **({"pitch_deg": 0.0, "climb_m_s": 0.0} if airframe.has_motor else {}),
         )
-        self.dynamics = FlightDynamics(airframe, start, weather, seed)
+        self.dynamics = FlightDynamics(airframe, start, weather, seed, model="jsbsim")
         self.actuators = Actuators(self.dynamics, Mix(profile))
         self.world = World(self.actuators, self.board)
         self.board.set_stick("throttle", 1000.0)

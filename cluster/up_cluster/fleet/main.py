@@ -39,7 +39,7 @@ EPILOG = """\
 examples:
   up-fleet list                    every member, with what it holds
   up-fleet where glider-1          its relay node and the host of its instance
-  up-fleet usage                   of members, aircraft, and of the tenant's quotas
+  up-fleet usage                   by members and aircraft, and the tenant's quotas
   up-fleet drain 3f9a0c27b1d4      before maintenance: its aircraft go elsewhere
   up-fleet kick glider-1           disconnects it and frees its name and control
   up-fleet kick glider-1 --instance  stops its instance; it does not start again

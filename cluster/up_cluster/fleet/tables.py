@@ -41,8 +41,12 @@ def usage_table(answer: dict[str, Any]) -> list[str]:
     tenant = answer["tenant"]
     sums = [("TENANT", "KIND", "USED", "QUOTA")]
     for kind, count in tenant["usage"].items():
-        limit = tenant["quota"].get(kind)
-        sums.append((tenant["name"], kind, f"{count:g}", "" if limit is None else f"{limit:g}"))
+        limit, is_bytes = tenant["quota"].get(kind), kind == "hour_bytes"
+        used, most = (
+            "" if each is None else f"{each / 1e6:.1f}" if is_bytes else f"{each:.0f}"
+            for each in (count, limit)
+        )
+        sums.append((tenant["name"], "mb_per_hour" if is_bytes else kind, used, most))
     return [*_columns(rows), "", *_columns(sums)]
 
 

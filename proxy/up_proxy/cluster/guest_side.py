@@ -47,11 +47,6 @@ class GuestSide(Owner):
     def has_home(self) -> bool:
         return self._poller.now_s - self._beacon_s < HOME_LIMIT_S
 
-    @property
-    def lacks_control(self) -> bool:
-        """Whether the aircraft is online and no ground has control."""
-        return self._presence.is_online and self._control.number is None
-
     def admit(self, ground: Connection, access: Access) -> None:
         ground.owner = self
         ground.number, self._next_number = self._next_number, self._next_number + 1

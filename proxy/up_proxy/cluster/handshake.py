@@ -54,8 +54,6 @@ class ClusterHandshake(Handshake):
             try:
                 self._take_ground(session, hello.access)
             except HelloError as error:
-                if hello.token is None:
-                    raise
 
                 def admit_resumed(_: str) -> None:
                     if session.is_home:
@@ -63,7 +61,8 @@ class ClusterHandshake(Handshake):
                     else:
                         self._admit_guest(session, connection, hello)
 
-                checked = session.check_control(hello.token, error)
+                requests = hello.access is not Access.LISTEN
+                checked = session.check_control(hello.token, error, requests=requests)
                 self._wait(connection, checked, admit_resumed, self._refuse)
             else:
                 self._admit_guest(session, connection, hello)

@@ -11,7 +11,7 @@ SETTLE_S = 0.5
 
 @dataclass(slots=True)
 class _Sender:
-    """The first message, the begin of the window, the smallest difference in it and before it."""
+    """The first message, the start of the window, the smallest difference in it and before it."""
 
     first_s: float
     begin_s: float

@@ -72,7 +72,7 @@ class ClusterSession(AircraftSession):
         return super().own_grounds - len(self._remotes) + len(self.guests.connections)
 
     def lacks_control(self, now_s: float) -> bool:
-        return super().lacks_control(now_s) if self.is_home else self.guests.lacks_control
+        return self.is_home and super().lacks_control(now_s)
 
     def is_deserted(self, now_s: float) -> bool:
         return super().is_deserted(now_s) and not self.guests.connections and not self._claims
@@ -117,15 +117,18 @@ class ClusterSession(AircraftSession):
         quota = self._node.quota
         quota.take(Side.AIRBORNE, is_needed=quota.was_here(self.name))
 
-    async def check_control(self, token: str, error: HelloError) -> str:
-        """Return the token if it has control of the aircraft, otherwise raise the error."""
+    async def check_control(self, token: str | None, error: HelloError, *, requests: bool) -> str:
+        """Raise the error for a ground that neither has control nor would get it."""
         self._claims += 1
         try:
-            if (await self._lease_data()).get("control") != token:
-                raise error
+            data = await self._lease_data()
         finally:
             self._claims -= 1
-        return token
+        owner = data.get("control")
+        would_get_it = requests and owner is None and data.get("air") is not None
+        if not would_get_it and (token is None or token != owner):
+            raise error
+        return token or ""
 
     async def _lease_data(self) -> dict[str, Any]:
         record = await self._node.leases.read(self._node.key(self.name))
@@ -135,8 +138,8 @@ class ClusterSession(AircraftSession):
         try:
             self._take()
         except HelloError:
-            # An aircraft in flight may change its node.
-            if token is None or (await self._lease_data()).get("air") != token:
+            # An aircraft in flight may change its node; None: a drain released it.
+            if token is None or (await self._lease_data()).get("air", "") not in (token, None):
                 raise
             return await self._acquire(token)
         try:

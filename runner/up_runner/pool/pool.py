@@ -177,7 +177,8 @@ class Pool:
 
     def _is_over_quota(self, name: str) -> bool:
         limit = self._config.pool.quota_instances
-        return 0 < limit <= len(self._names() - {name})
+        names = self._names()
+        return name not in names and 0 < limit <= len(names)
 
     def _ranking(self, request: Request) -> list[str]:
         runners = [self.info(), *self._directory.others()]

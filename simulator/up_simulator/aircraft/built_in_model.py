@@ -10,7 +10,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from up_simulator.aircraft.flight import FlightUnavailableError
-from up_simulator.aircraft.functions import FunctionError, compile_sum
+from up_simulator.aircraft.functions import FunctionError, compile_sum, number
 from up_simulator.aircraft.model import FOOT_M
 from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.start import MERIDIAN_M, PARALLEL_M
@@ -321,14 +321,14 @@ def _read(path: Path) -> Element:
             if element.tag not in known:
                 raise _unsupported(path, f"<{element.tag}> in <{part.replace('.', root.tag)}>")
     points = {
-        tuple(float(each.text or 0) for each in location)
+        tuple(_number(path, each) for each in location)
         for location in root.iter("location")
         if location.get("name") != "VRP"
     }
     if len(points) != 1:
         raise _unsupported(path, "a <location> that is not the centre of gravity")
     for force in root.findall("external_reactions/force"):
-        direction = [float(each.text or 0) for each in force.findall("direction/*")]
+        direction = [_number(path, each) for each in force.findall("direction/*")]
         named = force.get("name"), force.get("frame")
         if named != ("motor", "BODY") or direction != [1.0, 0.0, 0.0]:
             raise _unsupported(path, f"the force {named[0]}")
@@ -339,7 +339,16 @@ def _measure(path: Path, root: Element, name: str, unit: str) -> float:
     found = root.find(name)
     if found is None or found.get("unit") != unit:
         raise _unsupported(path, f"{name} without unit {unit}")
-    return float(found.text or 0)
+    if (value := _number(path, found)) <= 0.0:
+        raise _unsupported(path, f"{name} of {value:g}")
+    return value
+
+
+def _number(path: Path, element: Element) -> float:
+    try:
+        return number(element.text or "0")
+    except FunctionError as error:
+        raise _unsupported(path, f"{error} of <{element.tag}>") from None
 
 
 def _function(

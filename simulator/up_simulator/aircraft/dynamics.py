@@ -173,8 +173,9 @@ class FlightDynamics:
             self._run = None
         try:
             is_flying = self._fdm.run()
-        except RuntimeError as error:
-            # JSBSim's exceptions: a property that no longer exists, a table without an answer.
+        except (RuntimeError, ArithmeticError, ValueError) as error:
+            # JSBSim's exceptions: a property that no longer exists, a table without an answer; the
+            # built-in model's: a number that is too large, a root of a negative one.
             self.crash = f"the flight model has given up: {error}"
             return
         if is_flying:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from math import cos, sin
+from math import cos, isfinite, nan, pow, sin
 from typing import Any
 from xml.etree.ElementTree import Element
 
-_OPERATORS = {"product": "*", "sum": "+", "difference": "-", "pow": "**"}
-_CALLS = {"sin": sin, "cos": cos}
+_OPERATORS = {"product": "*", "sum": "+", "difference": "-"}
+_CALLS = {"sin": (sin, 1), "cos": (cos, 1), "pow": (pow, 2)}
+"""With the number of arguments."""
 
 
 class FunctionError(Exception):
@@ -21,7 +22,7 @@ def compile_sum(functions: Sequence[Element], values: Mapping[str, float]) -> Ca
 
     Raises ``FunctionError``. The expression is built from numbers and quoted names only.
     """
-    names: dict[str, Any] = {"values": values, **_CALLS}
+    names: dict[str, Any] = {"values": values, **{name: call for name, (call, _) in _CALLS.items()}}
     text = " + ".join(_expression(each, names) for each in functions) or "0.0"
     found: Callable[[], float] = eval(f"lambda: {text}", names)
     return found
@@ -30,7 +31,7 @@ def compile_sum(functions: Sequence[Element], values: Mapping[str, float]) -> Ca
 def _expression(element: Element, names: dict[str, Any]) -> str:
     tag, text = element.tag, (element.text or "").strip()
     if tag == "value":
-        return repr(_number(text))
+        return repr(number(text))
     if tag == "property":
         return _value(text, names)
     if tag == "table":
@@ -38,8 +39,8 @@ def _expression(element: Element, names: dict[str, Any]) -> str:
         names[name], by = _table(element)
         return f"{name}({_value(by, names)})"
     arguments = [_expression(each, names) for each in element]
-    if tag in _CALLS and len(arguments) == 1:
-        return f"{tag}({arguments[0]})"
+    if tag in _CALLS and len(arguments) == _CALLS[tag][1]:
+        return f"{tag}({', '.join(arguments)})"
     if tag in _OPERATORS and (len(arguments) == 2 or tag in ("product", "sum")) and arguments:
         return f"({_OPERATORS[tag].join(arguments)})"
     raise FunctionError(f"<{tag}> with {len(arguments)} arguments")
@@ -56,7 +57,7 @@ def _table(element: Element) -> tuple[Callable[[float], float], str]:
     if [each.tag for each in element] != ["independentVar", "tableData"]:
         raise FunctionError("a table of more than one variable")
     by = (element[0].text or "").strip()
-    cells = [_number(each) for each in (element[1].text or "").split()]
+    cells = [number(each) for each in (element[1].text or "").split()]
     keys, found = cells[::2], cells[1::2]
     if len(keys) < 2 or len(keys) != len(found) or keys != sorted(set(keys)):
         raise FunctionError(f"a table by {by} without ascending rows of two numbers")
@@ -76,8 +77,12 @@ def _table(element: Element) -> tuple[Callable[[float], float], str]:
     return look_up, by
 
 
-def _number(text: str) -> float:
+def number(text: str) -> float:
+    """Return a finite number. Raises ``FunctionError``."""
     try:
-        return float(text)
+        found = float(text)
     except ValueError:
-        raise FunctionError(f"the number {text[:40]}") from None
+        found = nan
+    if not isfinite(found):
+        raise FunctionError(f"the number {text[:40]!r}")
+    return found

@@ -47,9 +47,19 @@ def chosen_model(choice: ModelChoice) -> ModelChoice:
         return choice
     try:
         importlib.import_module("jsbsim")
-    except ImportError:
-        return "built-in"
+    except ModuleNotFoundError as error:
+        if error.name == "jsbsim":
+            return "built-in"
+        raise FlightUnavailableError(f"JSBSim cannot be imported: {error}") from error
+    except ImportError as error:
+        raise FlightUnavailableError(f"JSBSim cannot be imported: {error}") from error
     return "jsbsim"
+
+
+def fall_back_note(choice: ModelChoice, model: ModelChoice) -> str:
+    """Return the sentence about a model that flies for want of JSBSim; empty: it does not."""
+    is_fall_back = choice == "auto" and model != "jsbsim"
+    return f"JSBSim is not installed: {MODEL_TITLES[model]} flies" if is_fall_back else ""
 
 
 def load_model(path: Path, step_s: float, choice: ModelChoice = "jsbsim") -> FlightModel:

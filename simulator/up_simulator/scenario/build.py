@@ -9,7 +9,7 @@ from typing import Any
 from up_flightlog.read.demand import DemandModel
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
-from up_simulator.aircraft.model import MODEL_TITLES
+from up_simulator.aircraft.model import fall_back_note
 from up_simulator.betaflight.board import BetaflightBoard
 from up_simulator.betaflight.world import BetaflightWorld
 from up_simulator.firmware.board import FirmwareBoard
@@ -42,8 +42,8 @@ def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> Sce
         may_land=scenario.may_land,
         model=scenario.model,
     )
-    if scenario.model == "auto" and dynamics.model != "jsbsim":
-        notify(f"JSBSim is not installed: {MODEL_TITLES[dynamics.model]} flies")
+    if note := fall_back_note(scenario.model, dynamics.model):
+        notify(note)
     if scenario.board == "betaflight":
         betaflight = BetaflightBoard(dynamics, seed=scenario.seed)
         board = _on_line(scenario, betaflight)

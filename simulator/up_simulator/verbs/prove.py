@@ -16,6 +16,7 @@ from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import add_json_option, whole_number
 from up.fields import printable, suggestion
 from up.output import StatusLine
+from up_simulator.aircraft.model import chosen_model, fall_back_note
 from up_simulator.harness.start_options import wind_m_s
 from up_simulator.harness.workers import Workers
 from up_simulator.prove.advice import advice_of, story
@@ -150,6 +151,8 @@ def _report(proof: Proof, output: Path) -> None:
         sys.stdout.write(f"{printable(text)}\n")
 
     write(f"{setup.folder}, airframe {setup.airframe}")
+    if note := fall_back_note("auto", chosen_model("auto")):
+        write(note)
     for text in proof.refusals:
         write(f"  refused: {text}")
     for each in proof.failed:

@@ -75,6 +75,28 @@ def test_a_tenant_over_its_quota_is_refused_at_every_node_and_another_is_not(ser
                     check_shown(server, tmp_path)
 
 
+def test_a_full_quota_refuses_neither_a_drained_aircraft_nor_the_ground_that_gets_control(
+    server, tmp_path
+):
+    with tenant(server, tmp_path / "used", "used", 2, "{mb_per_hour: 1}") as nodes:
+        aircraft, token = nodes.aircraft(0, "glider-1")
+        with alive(aircraft):
+            for _ in range(21):
+                aircraft.say("x" * 49_999 + "\n")
+            until(lambda: usage(nodes, 1, "hour_bytes") > 1e6, "the heartbeat of the first node")
+            port = nodes.programs[1].ground_port
+            assert refusal(port, "UP1 aircraft=glider-1 seat=listen\n") == "quota"
+            owner, _ = nodes.ground(1, "glider-1")
+            with alive(owner):
+                owner.expect("seat command")
+                assert refusal(port, "UP1 aircraft=glider-1 seat=command\n") == "quota"
+                fleet = UpFleet(tmp_path / "fleet", server.urls, "tenant: used\nreplicas: 1\n")
+                place = fleet.ask("where", "glider-1")["places"][0]
+                assert fleet.ask("drain", place["id"])["left"] == ["glider-1"]
+                assert refusal(nodes.programs[1].airborne_port, "UP1 aircraft=b\n") == "quota"
+                nodes.aircraft(1, "glider-1", token)[0].close()
+
+
 def check_shown(server, folder):
     fleet = UpFleet(folder / "fleet", server.urls, "tenant: full\nreplicas: 1\n")
     shown = fleet.ask("usage")

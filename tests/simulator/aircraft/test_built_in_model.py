@@ -272,6 +272,8 @@ def test_without_jsbsim_the_built_in_model_flies(monkeypatch):
         ("<independentVar>", '<independentVar lookup="row">a</independentVar><independentVar>',
          "variable"),
         ("</fdm_config>", "", "no element"),
+        ('<emptywt unit="KG">', '<emptywt unit="KG">1,', "the number '1,"),
+        ('<emptywt unit="KG">', '<emptywt unit="KG">-', "emptywt of -"),
     ],
 )  # fmt: skip
 def test_what_only_jsbsim_supports_is_named(tmp_path, here, there, named):

@@ -25,6 +25,7 @@ def test_operators_nest_and_functions_add_up():
     turned = "<cos><value>0</value></cos>"
     assert value_of(product, power, turned, a=5.0) == 6.0 + 144.0 + 1.0
     assert value_of() == 0.0
+    assert value_of("<pow><value>-0.5</value><value>2</value></pow>") == 0.25
 
 
 @pytest.mark.parametrize(
@@ -32,6 +33,7 @@ def test_operators_nest_and_functions_add_up():
     [
         "<property>b</property>",
         "<value>__import__('os')</value>",
+        "<value>nan</value>",
         "<pow><value>2</value></pow>",
         "<product/>",
         "<quotient><value>2</value><value>2</value></quotient>",
