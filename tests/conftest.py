@@ -21,7 +21,10 @@ settings.load_profile("ci" if os.environ.get("UP_REQUIRE_TOOLS") == "1" else "te
 # A worker takes a whole file. What runs in real time comes first and is not nice; then those that
 # take minutes: none is left for the end.
 REAL_TIME_FILES = ("test_browser.py", "test_guide.py", "test_shipped_real.py")
-LONG_FILES = (*REAL_TIME_FILES, "test_ending.py", "test_shipped.py")
+LONG_FILES = (
+    *REAL_TIME_FILES, "test_app.py", "test_build.py", "test_ending.py", "test_shipped.py",
+    "test_shipped_with_daemon.py", "test_flight_mode.py", "test_flight_mode_files.py",
+)  # fmt: skip
 NICE = 5
 
 # A shell starts a background program with Ctrl-C ignored, and its children inherit that: then

@@ -42,6 +42,7 @@ def test_a_pair_on_two_nodes_and_a_second_aircraft_of_the_name(nodes):
         with listener:
             listener.expect("seat holder=1")
             listener.say('{"up": "of a listener"}\n')
+            aircraft.expect("watch grounds=2")  # The home knows the listener.
             ground.say("UP1 seat give to=2\n")
             listener.expect("seat command")
             relayed(aircraft, listener, "given")
