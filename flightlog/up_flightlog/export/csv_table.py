@@ -37,8 +37,7 @@ def topic_rows(
     """Yield the header and a row for every message of one topic."""
     yield [cell(name) for name in (TIME, WALL_TIME, *paths)]
     for message in messages:
-        found = dict(flat(message.data))
-        yield [*_times(message.time_s, start_unix_s), *(cell(found.get(path)) for path in paths)]
+        yield [*_times(message.time_s, start_unix_s), *_cells(message.data, paths)]
 
 
 def wide_rows(
@@ -63,9 +62,7 @@ def wide_rows(
     for number in range(int(length_s * rate_hz) + 1):
         time_s = number / rate_hz
         while message is not None and message.time_s <= time_s:
-            found = dict(flat(message.data))
-            cells = [cell(found.get(path)) for path in columns[message.topic]]
-            newest[message.topic] = (message.time_s, cells)
+            newest[message.topic] = (message.time_s, _cells(message.data, columns[message.topic]))
             message = next(waiting, None)
         row = _times(time_s, start_unix_s)
         for topic, paths in columns.items():
@@ -75,6 +72,13 @@ def wide_rows(
             else:
                 row += [""] * (len(paths) + 1)
         yield row
+
+
+def _cells(data: Mapping[str, Any], paths: Iterable[str]) -> list[str]:
+    found = dict(flat(data))
+    values = map(found.get, paths)
+    # Most are finite numbers, which need no call of `cell`.
+    return [repr(v) if type(v) is float and v - v == 0.0 else cell(v) for v in values]
 
 
 def _times(time_s: float, start_unix_s: float) -> list[str]:
@@ -98,9 +102,11 @@ def _add_flat(data: Mapping[str, Any], prefix: str, found: list[tuple[str, Any]]
 
 def _shape(data: Mapping[str, Any]) -> tuple[Any, ...]:
     """Return the keys of a message, with those of its inner maps."""
-    inner = (_shape(value) for value in data.values() if type(value) is dict)
-    nested = tuple(key for key, value in data.items() if type(value) is dict)
-    return (*data, nested, *inner)
+    if dict not in map(type, data.values()):
+        return tuple(data)
+    return tuple(
+        [(key, _shape(each) if type(each) is dict else None) for key, each in data.items()]
+    )
 
 
 def cell(value: Any) -> str:
