@@ -123,7 +123,7 @@ class MetricsFactory(WrappingFactory):
             root.putChild(b"live", LocalPage(lambda: health("live")))
             root.putChild(b"ready", LocalPage(lambda: readiness(unready_code())))
         make: Any = Site
-        site = make(root, requestFactory=OnlyRequest, timeout=None)
+        site = make(root, requestFactory=OnlyRequest, timeout=None, reactor=clock)
         site.displayTracebacks = False
         site.noisy = False
         super().__init__(site)  # type: ignore[no-untyped-call]
