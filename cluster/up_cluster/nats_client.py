@@ -112,7 +112,6 @@ class NatsClient:
         self._requests: dict[str, Deferred[nats.Message]] = {}
         self.dropped = 0
         """Messages that were published but never left."""
-        self.reconnects = 0
 
     def start(self) -> None:
         self.subscribe(f"{self._inbox}.*", self._on_answer)
@@ -242,7 +241,6 @@ class NatsClient:
         self._link, self._ready_s = link, self._reactor.seconds()
         subjects = [(subject, sid) for sid, (subject, _) in self._subscriptions.items()]
         link.send(b"".join(itertools.starmap(nats.subscribe, subjects)))
-        self.reconnects += 1
         _log.info("connected to NATS server {server}", code="nats_connected", server=link.server)
         self._on_connected(True)
 

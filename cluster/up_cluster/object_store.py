@@ -64,6 +64,8 @@ class ObjectStore:
         self._client = client
         self._name = name
         self._stream = f"OBJ_{name}"
+        self._abandoned: set[str] = set()
+        """Chunks of writes that NATS did not take to their end; not those of an earlier process."""
 
     async def create(self, replicas: int) -> None:
         """Make the bucket if it does not exist."""
@@ -104,7 +106,9 @@ class ObjectStore:
         With `expected` only if its revision is this one, 0: no object. Raises WrongRevisionError;
         nothing is replaced then.
         """
-        nuid, old = secrets.token_hex(11), None
+        for abandoned in list(self._abandoned):
+            await self._remove_chunks(abandoned)
+        nuid, old, is_whole = secrets.token_hex(11), None, False
         with suppress(ObjectDamagedError):
             old = await self.info(name)
         digest, size, chunks = hashlib.sha256(), 0, 0
@@ -117,9 +121,13 @@ class ObjectStore:
             headers = {"Nats-Rollup": "sub"}
             if expected is not None:
                 headers[EXPECTED] = str(expected)
+            is_whole = True
             revision = await write(self._client, self._meta(name), self._encode(info), headers)
         except NatsUnavailableError:
-            raise  # The object may have been written.
+            # A whole object may have been written.
+            if not is_whole:
+                self._abandoned.add(nuid)
+            raise
         except (JetStreamError, OSError):
             await self._remove_chunks(nuid)
             raise
@@ -171,6 +179,7 @@ class ObjectStore:
         try:
             filter_ = {"filter": self._chunks(nuid)}
             await api(self._client, f"STREAM.PURGE.{self._stream}", filter_)
+            self._abandoned.discard(nuid)
         except (NatsUnavailableError, JetStreamError):
             pass
 

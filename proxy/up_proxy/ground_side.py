@@ -70,8 +70,12 @@ class GroundSide(Owner):
         return Access.LISTEN
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Relay the owner's lines, handle control lines, reject and count the rest."""
+        """Take lines that this proxy received."""
         self._aircraft.ground_bytes += len(lines)
+        self.take(connection, lines)
+
+    def take(self, connection: Connection, lines: bytes) -> None:
+        """Relay the owner's lines, handle control lines, reject and count the rest."""
         if lines == b"\n" and connection.speaks_hello:
             return  # a heartbeat: it keeps this connection, and would cost the aircraft data
         if PREFIX in lines:

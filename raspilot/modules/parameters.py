@@ -61,6 +61,7 @@ class Parameters(BaseModule):
         self._used = {name: self._values(file, config(file)) for name, file in self._files.items()}
         self._disk = DiskThread(self.context.reactor)
         self._pending: dict[str, Keys] = {}
+        self._writing = 0
         self._state: FlightStateCommand | None = None
         executor = self.up.command_executor
         executor.register_command(FlightStateCommand, self._on_flight_state)
@@ -99,7 +100,8 @@ class Parameters(BaseModule):
         except ConstraintError as error:
             text = f"{file.filename}: {command.key} {error}"
             raise CommandRefusedError(text, Code.INVALID, detail=error.code) from None
-        # The motor must not be armed in the meantime: a disk may take a second.
+        # The motor must not be armed in the meantime.
+        self._writing += 1
         self.up.vetoes.set(VETO, f"{file.filename} is being written")
         done = self._disk.run(lambda: self._write(file, path, command.setting, wanted))
         return done.addCallbacks(
@@ -151,6 +153,10 @@ class Parameters(BaseModule):
         self._update_veto()
 
     def _update_veto(self) -> None:
+        """After a write, when no other one is waiting: a disk may take a second."""
+        self._writing -= 1
+        if self._writing:
+            return
         names = [f"{name}: {key}" for name, keys in self._pending.items() for key in keys]
         if names:
             self.up.vetoes.set(VETO, f"a restart is needed for {', '.join(names)}")

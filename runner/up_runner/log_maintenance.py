@@ -17,7 +17,9 @@ from up_runner.log_keeper import LogKeeper
 from up_runner.request import NAME
 
 PERIOD_S = 0.5
-_CONTENTS = frozenset(("notify", "state.json", ".state.json.tmp", "config", "profile"))
+_CONTENTS = frozenset(
+    ("notify", "state.json", ".state.json.tmp", "deadline", ".deadline.tmp", "config", "profile")
+)
 """All names that a runner creates in an instance's folder."""
 
 

@@ -10,6 +10,7 @@ from tests.cluster.connected import connected
 from tests.support.nats_servers import NatsServers
 from tests.support.reactor import run_in_reactor
 from up_cluster.jetstream import EXPECTED, WrongRevisionError, api, stored, write
+from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.object_store import CHUNK_BYTES, ObjectDamagedError, ObjectStore
 
 
@@ -52,6 +53,20 @@ async def life(server):
     newer = await store.put_bytes(name, b"new", info.revision)
     state = (await api(client, "STREAM.INFO.OBJ_up-state", {}))["state"]
     assert state["messages"] == 2, "the chunk and the description"
+
+    # The chunks of a write that NATS did not take to its end go with the next one.
+    parts = iter([b"first chunk"])
+
+    def until_lost(_size):
+        for part in parts:
+            return part
+        raise NatsUnavailableError("timeout")
+
+    with pytest.raises(NatsUnavailableError):
+        await store.put("lost", until_lost)
+    await store.put_bytes(name, b"new", newer.revision)
+    state = (await api(client, "STREAM.INFO.OBJ_up-state", {}))["state"]
+    assert state["messages"] == 2
     empty = await store.put_bytes("empty", b"")
     assert await store.get_bytes(empty) == b""
 

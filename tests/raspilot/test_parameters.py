@@ -1,6 +1,7 @@
 """Keys of configuration files that a ground sets: what is written, refused, and vetoed."""
 
 import pytest
+from twisted.internet.defer import Deferred
 
 from raspilot.flight_modes.loiter import LOITER
 from raspilot.modules.failsafes import Failsafes
@@ -12,6 +13,18 @@ from up.config.application import APPLICATION
 
 FILE = "# My circle.\nradius_m: 60  # wide\n"
 FENCE = "fence: {radius_m: 500, floor_m: 20}\n"
+
+
+class LateDisk:
+    """Does each piece of work when the test says so."""
+
+    def __init__(self):
+        self.waiting = []
+
+    def run(self, work):
+        done = Deferred()
+        self.waiting.append(lambda: done.callback(work()))
+        return done
 
 
 class Reader(BaseModule):
@@ -66,6 +79,19 @@ def test_a_key_is_written_acts_at_the_next_start_and_until_then_nothing_arms(rig
     assert again.up.context.config(LOITER).radius_m == 75.5 and not again.is_vetoed
     assert rig.set("loiter.yml", "radius_m", "60") is None
     assert not rig.is_vetoed and rig.shown("loiter.yml").next_start == {}
+
+
+def test_nothing_arms_until_the_last_of_several_writes_is_done(rig):
+    # The two leave no key pending: nothing but the writing itself forbids arming.
+    commands = [ParameterSetCommand("loiter.yml", "radius_m", "60") for _ in range(2)]
+    vetoed = []
+    rig.parameters._disk = LateDisk()
+    for command in commands:
+        rig.outcome(command)
+    for done in rig.parameters._disk.waiting:
+        vetoed.append(rig.is_vetoed)
+        done()
+    assert (vetoed, rig.is_vetoed) == ([True, True], False)
 
 
 def test_a_key_that_is_not_in_the_file_is_added_with_its_section(rig):

@@ -60,6 +60,11 @@ def state_of(rule: Rule, telemetry: Values, before: Any) -> Any:
     return state
 
 
+def is_hidden(rule: Rule, telemetry: Values) -> bool:
+    """Return whether the condition `unless` of a rule hides its alarm."""
+    return bool(rule.unless) and telemetry.flag(*rule.unless.split(".")) is True
+
+
 def report_of(rule: Rule, before: Any, now: Any, telemetry: Values) -> Report | None:
     """Return the report of a change, None for no event; ``before`` is None for the first value."""
     end = Report(INFO, rule.end_code, rule.end) if rule.end else None

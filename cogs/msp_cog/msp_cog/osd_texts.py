@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from msp_cog.displayport import plain
+from up.commands.event_rules import is_hidden, state_of
 from up.commands.telemetry_schema import RULES, SILENT_S
 from up.telemetry_frame import Frame
 
@@ -112,18 +113,11 @@ class OsdTexts:
         if cause:
             yield f"FAILSAFE {_words(cause)}"
         for rule in RULES:
-            if not rule.alarm or rule.type != "flag" or not rule.holds(_flag(frame, rule.path)):
+            if not rule.alarm or rule.type != "flag" or is_hidden(rule, frame):
                 continue
-            was_there = not rule.awaits or any(
-                frame.number("age_ms", each) is not None for each in rule.awaits
-            )
-            if was_there and not (rule.unless and _flag(frame, rule.unless)):
+            if state_of(rule, frame, None) is True:
                 yield _words(rule.code)
         yield from map(_words, frame.texts("failsafe", "active") or ())
-
-
-def _flag(frame: Frame, path: str) -> bool | None:
-    return frame.flag(*path.split("."))
 
 
 def _words(code: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from up.commands.event_rules import ALARM, AWAITED, MAX_TEXT, Report
+from up.commands.event_rules import ALARM, AWAITED, MAX_TEXT, Report, is_hidden
 from up.commands.schema_rows import Rule
 from up.commands.telemetry_schema import EVENTS
 from up_ground.telemetry import Telemetry
@@ -29,8 +29,7 @@ class Alarm:
 
 def alarm_of(rule: Rule, state: Any, telemetry: Telemetry, was_there: bool) -> Alarm | None:
     """Return the alarm of a rule; ``was_there``: its condition was once known not to hold."""
-    is_hidden = rule.unless and telemetry.flag(*rule.unless.split("."))
-    if not rule.alarm or not state or is_hidden:
+    if not rule.alarm or not state or is_hidden(rule, telemetry):
         return None
     if state == AWAITED and not was_there:
         level = rule.awaited_level

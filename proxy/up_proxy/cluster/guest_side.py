@@ -108,11 +108,12 @@ class GuestSide(Owner):
         self._show(AircraftPresence(beacon.online), ControlOwner(beacon.owner))
 
     def on_line(self, number: int, line: bytes) -> None:
-        """Pass a line of the home on to a ground."""
+        """Pass a line of the home on to a ground; one that is no control line ends it."""
         ground = self.connections.get(number)
-        if ground is None or not line.startswith(PREFIX):
-            if ground is not None and not line:
-                ground.fail("control was resumed with its token")
+        if ground is None:
+            return
+        if not line.startswith(PREFIX):
+            ground.fail(line.decode("ascii", "replace"))
             return
         news = parse_line(line)
         if isinstance(news, ControlGranted):

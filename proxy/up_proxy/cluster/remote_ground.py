@@ -53,7 +53,7 @@ class RemoteGround(Connection):
         self.paused_s = None
 
     def fail(self, reason: str) -> None:
-        """Let its node end the connection: an empty line."""
+        """Let its node end the connection, by a line that is the reason."""
         if self.failure is None:
             self.failure = reason
-            self._send(b"")
+            self._send(reason.encode("ascii", "replace"))

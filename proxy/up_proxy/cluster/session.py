@@ -24,6 +24,7 @@ from up_proxy.cluster.guest_side import GuestSide
 from up_proxy.cluster.home_ground_side import HomeGroundSide
 from up_proxy.cluster.node_messages import Beacon, Envelope, GroundLine, GroundList, parse
 from up_proxy.cluster.remote_ground import RemoteGround
+from up_proxy.cluster.remote_grounds import RemoteGrounds
 from up_proxy.connection import Connection
 from up_proxy.handshake import new_token
 from up_proxy.poller import Poller
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
 
 REPEAT_S = 1.0
 """Period of a guest's list and of a home's beacon."""
-LIST_LIMIT_S = 3.0
-"""The grounds of a guest that sends no list for this long count as gone."""
 _log = UpLogger.get_logger("proxy")
 
 
@@ -52,8 +51,7 @@ class ClusterSession(AircraftSession):
         self.lease: Lease | None = None
         self._claims = 0
         self._home_since_s = 0.0
-        self._remotes: dict[tuple[str, int], RemoteGround] = {}
-        self._listed_s: dict[str, float] = {}
+        self._remotes = RemoteGrounds(self.home_grounds, self._admit, self._send_control)
         self._repeated_s = poller.now_s
         self._beaconed: tuple[bool, int | None] = (False, None)
         self._subject = node.subject(name)
@@ -222,7 +220,6 @@ class ClusterSession(AircraftSession):
         self.grounds.connections = ()
         self.grounds.lease.release()
         self._remotes.clear()
-        self._listed_s.clear()
         self._shown_online, self._shown_owner = False, None
         self.send_list()
 
@@ -259,7 +256,7 @@ class ClusterSession(AircraftSession):
 
     def send_list(self) -> None:
         if self.lease is None:
-            self._send(".control", 0, self.guests.list().encode())
+            self._send_control(0, self.guests.list().encode())
 
     def refused(self, code: str) -> None:
         self._node.refused[code] += 1
@@ -272,10 +269,10 @@ class ClusterSession(AircraftSession):
     def _send_beacon(self) -> None:
         if self.lease is not None:
             self._beaconed = self._shown_online, self._shown_owner
-            known: dict[str, list[int]] = {}
-            for node, number in self._remotes:
-                known.setdefault(node, []).append(number)
-            self._send(".control", 0, Beacon(*self._beaconed, known).encode())
+            self._send_control(0, Beacon(*self._beaconed, self._remotes.numbers()).encode())
+
+    def _send_control(self, ground: int, body: bytes) -> None:
+        self._send(".control", ground, body)
 
     def _send(self, kind: str, ground: int, body: bytes) -> None:
         fence = self.guests.fence if self.lease is None else self.lease.fence
@@ -291,14 +288,13 @@ class ClusterSession(AircraftSession):
         self.dropped_lines += relay_to_all(self.guests.connections.values(), lines)
 
     def _on_up(self, message: Envelope) -> None:
-        remote = self._remotes.get((message.node, message.ground))
+        remote = self._remotes.get(message.node, message.ground)
         if self.lease is None or message.fence != self.lease.fence or remote is None:
             self._node.fenced += 1
             return
         remote.last_rx_s = self._poller.now_s
         if remote.failure is None and remote.paused_s is None:
-            self.grounds.on_lines(remote, message.body)
-            self.ground_bytes -= len(message.body)  # counted by the node that received them
+            self.grounds.take(remote, message.body)
         else:
             self.rejected_lines += message.body.count(b"\n")
 
@@ -306,7 +302,11 @@ class ClusterSession(AircraftSession):
         said = parse(message.body)
         if isinstance(said, GroundList):
             if self.lease is not None:
-                self._on_list(message.node, said, is_known=message.fence == self.lease.fence)
+                is_known = message.fence == self.lease.fence
+                is_new = self._remotes.update(message.node, said, self._poller.now_s)
+                if is_new or not is_known:
+                    self.announce()
+                    self._send_beacon()
         elif self.lease is not None:
             if isinstance(said, Beacon) and message.fence > self.lease.fence > 0:
                 lease, self.lease = self.lease, None
@@ -324,44 +324,6 @@ class ClusterSession(AircraftSession):
             if is_new and self.guests.connections:
                 self.send_list()
 
-    def _on_list(self, node: str, listed: GroundList, *, is_known: bool) -> None:
-        now_s = self._poller.now_s
-        self._listed_s[node] = now_s
-        present = {(node, each.number): each for each in listed.grounds}
-        for key, remote in list(self._remotes.items()):
-            if key[0] == node and key not in present:
-                self._end(key, remote)
-        is_new = False
-        for key, each in present.items():
-            known = self._remotes.get(key)
-            if known is not None:
-                known.last_rx_s = max(known.last_rx_s, now_s - each.age_s)
-                self._correct(known, each.access)
-                continue
-            is_new = True
-            remote = RemoteGround(node, each, now_s, self._line_sender(node, each.number))
-            self._remotes[key] = remote
-            self._admit(remote, each.access, each.token)
-        if is_new or not is_known:
-            self.announce()
-            self._send_beacon()
-
-    def _correct(self, remote: RemoteGround, shown: Access) -> None:
-        """Repeat what a ground was sent about its control, and did not get."""
-        is_owner = remote is self.grounds.lease.owner
-        if is_owner is (shown is Access.COMMAND) or remote is self.home_grounds.granting:
-            return
-        if remote.speaks_hello:
-            line = ControlGranted(remote.token) if is_owner else ControlLost()
-            remote.send(line.encode())
-
-    def _line_sender(self, node: str, number: int) -> Any:
-        return lambda line: self._send(".control", number, GroundLine(node, line).encode())
-
-    def _end(self, key: tuple[str, int], remote: RemoteGround) -> None:
-        del self._remotes[key]
-        self.grounds.on_end(remote, "its node does not list it")
-
     def sweep(self) -> None:
         now_s = self._poller.now_s
         if self.lease is None:
@@ -370,14 +332,9 @@ class ClusterSession(AircraftSession):
                 self._repeated_s = now_s
                 self.send_list()
             return
-        for node, listed_s in list(self._listed_s.items()):
-            if now_s - listed_s > LIST_LIMIT_S:
-                del self._listed_s[node]
-                for key, remote in list(self._remotes.items()):
-                    if key[0] == node:
-                        self._end(key, remote)
+        self._remotes.expire(now_s)
         super().sweep()
-        if self._listed_s and now_s - self._repeated_s >= REPEAT_S:
+        if self._remotes.is_listed and now_s - self._repeated_s >= REPEAT_S:
             self._repeated_s = now_s
             self._send_beacon()
         if not self.changes.locked and self._data() != self.lease.data:

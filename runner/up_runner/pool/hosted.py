@@ -15,7 +15,7 @@ from twisted.internet.defer import Deferred, DeferredList, DeferredLock
 from up.log import UpLogger
 from up.system.deadline_watch import VARIABLE, now_s, read_deadline, write_deadline
 from up_cluster.jetstream import JetStreamError
-from up_cluster.lease import Lease, LeaseState, Record
+from up_cluster.lease import Lease, Record
 from up_cluster.membership import Membership, run, word
 from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.object_store import ObjectStore
@@ -174,7 +174,8 @@ class HostedInstances:
             lambda: list(self._host.folder.glob(f"*/{STATE_HOME}"))
         )
         for name in (each.parent.name for each in folders):
-            if name not in self._hosted:
+            # One that runs is not hosted before its lease is held, and still writes its flight.
+            if name not in self._hosted and self._instances.get(name) is None:
                 await self.files(name).save_flights()
 
     def _permit(self, name: str) -> Mapping[str, str]:
@@ -188,9 +189,8 @@ class HostedInstances:
     def _is_over(self, name: str, hosted: Hosted | None) -> bool:
         if hosted is None:  # of an earlier runner, whose deadline still counts
             return not now_s() < read_deadline(self._deadline_path(name))
-        lease = hosted.lease
-        is_late = self._reactor.seconds() >= lease.proven_until_s - MARGIN_S
-        return is_late or lease.state is not LeaseState.HELD or lease.fence != hosted.fence
+        is_proven = hosted.lease.is_proven(self._reactor.seconds() + MARGIN_S)
+        return not is_proven or hosted.lease.fence != hosted.fence
 
     def _deadline_path(self, name: str) -> Path:
         return self._host.run_folder.instance(name) / DEADLINE

@@ -5,12 +5,14 @@ from __future__ import annotations
 import secrets
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from twisted.internet.task import deferLater
 
+from up.config.atomic_writer import write_atomically
 from up.log import UpLogger
 from up.system.clock import Timer, cancel
 from up.system.figures import Figure
@@ -307,10 +309,9 @@ class Pool:
 
 def _own_id(path: Path) -> str:
     """Return the id of the runner of this run folder, which only one process has at a time."""
-    try:
-        return path.read_text("ascii").strip()
-    except OSError:
-        own = secrets.token_hex(6)
-        path.write_text(f"{own}\n", encoding="ascii")
-        path.chmod(0o600)
-        return own
+    with suppress(OSError):
+        if own := path.read_text("ascii").strip():
+            return own
+    own = secrets.token_hex(6)
+    write_atomically(path, f"{own}\n".encode(), 0o600)
+    return own

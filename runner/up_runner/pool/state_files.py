@@ -73,7 +73,8 @@ class StateFiles:
     async def save(self) -> None:
         """Write the learned files if they have changed and no other host has written them."""
         stamp, data = await self._host.on_disk(self._collect)
-        if stamp == self._stamp or data is None:
+        if data is None:
+            self._stamp = stamp
             return
         digest = hashlib.sha256(data).hexdigest()
         try:
@@ -95,12 +96,14 @@ class StateFiles:
         for path in await self._host.in_thread(lambda: sorted(folder.glob("*.mcap"))):
             name = f"{self._prefix}/flights/{path.name}"
             try:
-                with path.open("rb") as file:
+                with await self._host.in_thread(path.open, "rb") as file:
                     await self._store.put(name, lambda size: self._host.in_thread(file.read, size))
-                path.unlink()
+                await self._host.in_thread(path.unlink)
             except (NatsUnavailableError, JetStreamError, OSError) as error:
                 text = "{name} is not saved, and stays on this host: {reason}"
                 _log.error(text, code="flight_not_saved", name=name, reason=str(error))
+                if isinstance(error, OSError):
+                    continue  # Of this file alone.
                 return
             _log.info("{name} is saved", code="flight_saved", name=name)
         await self._host.in_thread(self._remove_empty)
@@ -116,13 +119,17 @@ class StateFiles:
             return ""
 
     def _collect(self) -> tuple[list[tuple[str, int, int]], bytes | None]:
-        """Return what changes with the files, and the document; None if it is too large."""
+        """Return what changes with the files, and the document; None: unchanged, or too large."""
         config = self._folder / FOLDER
         stamp, files = [], {}
         for name in sorted(self._names):
-            with suppress(FileNotFoundError, UnicodeDecodeError):
+            with suppress(FileNotFoundError):
                 status = (config / name).stat()
                 stamp.append((name, status.st_mtime_ns, status.st_size))
+        if stamp == self._stamp:
+            return stamp, None
+        for name, _, _ in stamp:
+            with suppress(FileNotFoundError, UnicodeDecodeError):
                 files[name] = (config / name).read_text(encoding="utf-8")
         try:
             profile = (self._folder / PROFILE_NOTE).read_text(encoding="utf-8")

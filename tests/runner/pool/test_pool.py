@@ -20,6 +20,7 @@ from up.system.deadline_watch import read_deadline
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.membership import LEASES, ask
 from up_runner.pool.messages import encode_request
+from up_runner.pool.state_files import FLIGHTS
 from up_runner.request import Request
 
 SEED = 18
@@ -125,11 +126,16 @@ def test_a_restarted_runner_keeps_its_instances_and_a_stopped_one_leaves_them(se
         first = pool.runners[0].spawn("kept")
         host, other = pool.host_of(first), pool.others(pool.host_of(first))[0]
         deadline = host.run_folder / "kept" / "deadline"
+        # The black box still writes it: another runner may not move it.
+        flight = host.run_folder / "kept" / FLIGHTS / "0001.mcap"
+        flight.parent.mkdir(parents=True)
+        flight.write_bytes(b"open")
         host.kill()
         before_s = read_deadline(deadline)
         host.start(under_systemd=False)
         host.logs("taken_over")
         wait_until(lambda: read_deadline(deadline) > before_s, "a renewal")
+        assert flight.read_bytes() == b"open"
         assert same_instance(pool.running_at(other, "kept"), first)
         assert host.terminate() == 0
         second = pool.running_at(other, "kept")
