@@ -64,7 +64,7 @@ async def life(server):
 
     with pytest.raises(NatsUnavailableError):
         await store.put("lost", until_lost)
-    await store.put_bytes(name, b"new", newer.revision)
+    newer = await store.put_bytes(name, b"new", newer.revision)
     state = (await api(client, "STREAM.INFO.OBJ_up-state", {}))["state"]
     assert state["messages"] == 2
     empty = await store.put_bytes("empty", b"")
