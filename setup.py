@@ -161,6 +161,8 @@ setup(
         "pyserial>=3.5",
         "PyYAML>=6",
         "psutil>=5.9",
+        # Compressed flight logs. PyPI has no wheel for 32-bit ARM, and compiling it takes long.
+        "zstandard>=0.20; platform_machine != 'armv6l' and platform_machine != 'armv7l'",
     ],
     extras_require={
         "cogs": cogs(),

@@ -28,7 +28,7 @@ RATE_HZ = 1000
 SECONDS, QUICK_SECONDS = 4.0, 0.5
 ROUNDS, QUICK_ROUNDS = 7, 5
 MIN_TAIL_FRAMES = 3000
-"""With fewer frames in a round the p99.9 is no more than its slowest frames: noise."""
+"""With fewer frames in a round the p99.9 is only its slowest frames: noise."""
 BUSY_LOOPS = 2
 PRIORITY = 20
 ANSWER_LIMIT_S = 30.0

@@ -27,7 +27,7 @@ STALL, MIN_PROGRESS_M = 1.0, 20.0
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How a random flight ended; ``about`` is what was drawn."""
+    """How a random flight ended; ``about`` gives the drawn values."""
 
     seed: int
     about: str

@@ -1,5 +1,6 @@
 """What holds for every test."""
 
+import gc
 import os
 import shutil
 import signal
@@ -16,6 +17,8 @@ from tests.support.showcase import Showcase
 settings.register_profile("tests", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 # Where nothing may be skipped, every run tries the same examples, and no more than these.
 settings.register_profile("ci", settings.get_profile("tests"), derandomize=True, max_examples=50)
+# For a search by hand: pytest --hypothesis-profile=search FILE.
+settings.register_profile("search", settings.get_profile("tests"), max_examples=2000)
 settings.load_profile("ci" if os.environ.get("UP_REQUIRE_TOOLS") == "1" else "tests")
 
 # A worker takes a whole file. What runs in real time comes first and is not nice; then those that
@@ -31,6 +34,14 @@ NICE = 5
 # Ctrl-C would end none of the tests' own programs.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+# The tests make little garbage in cycles, and ten thousand of them are much to look through.
+gc.set_threshold(50_000, 20, 100)
+
+
+def pytest_collection_finish(session):
+    gc.freeze()
 
 
 def pytest_collection_modifyitems(items):

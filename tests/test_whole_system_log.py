@@ -87,7 +87,7 @@ def test_a_daemon_that_is_killed_leaves_a_log_to_its_last_second(flight):
     board says never.
     """
     assert "signal 9" in flight.showcase.said()
-    assert flight.log.is_cut, "nobody has finished it"
+    assert flight.log.is_cut, "it was not finished"
     for topic in ("simulator.truth", "up.orientation.update", "up.servo.update"):
         times_s = [time_s for time_s, _ in flight.log.messages[topic]]
         assert times_s == sorted(times_s)

@@ -14,7 +14,7 @@ FORMATS = {"u8": "B", "u16": "H"}
 MAXIMUM = {"u8": 255, "u16": 65535}
 # The keys of each kind of row, with their defaults; None: required.
 MODE = {"letter": None, "name": None, "about": None, "holder": "", "switch": False,
-        "flown": True, "firmware": True}  # fmt: skip
+        "pi": False, "flown": True, "firmware": True}  # fmt: skip
 REFUSAL = {"code": None, "name": None, "text": None}
 ANSWER = {"code": None, "text": None}
 OUTCOME = {"code": None, "text": None, "level": "info"}
@@ -154,7 +154,7 @@ def _field(data: dict[str, Any], readings: list[str]) -> Item:
 
 
 def _row(data: dict[str, Any], field: str) -> Item:
-    """Return a field of the status, or a bit of one, with what follows from its keys."""
+    """Return a field of the status, or a bit of one, with the attributes derived from its keys."""
     row = _item(ROW, data)
     row.field = field or row.name
     row.bits = [_row(each, row.name) for each in row.bits]

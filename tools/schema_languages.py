@@ -48,6 +48,10 @@ def cpp(schema: Schema) -> str:
     )
 
 
+def _pi_modes(schema: Schema) -> tuple[str, ...]:
+    return tuple(mode.name for mode in schema.modes if mode.pi)
+
+
 def python(schema: Schema) -> str:
     """Return the module of the status for cog, flight log, ground station and simulator."""
 
@@ -75,6 +79,7 @@ def python(schema: Schema) -> str:
         f"OLDEST_SIZE = {schema.oldest_size}",
         f"FLIGHT_MODES = { {m.letter: m.name for m in schema.modes if m.flown} }",
         f"MODE_TEXTS = { {m.name: m.about for m in schema.modes if m.flown} }",
+        f"PI_MODES = {_pi_modes(schema)}",
         f"SWITCH_MODES = { {m.letter: m.name for m in schema.modes if m.switch} }",
         f"SWITCH_POSITIONS = {positions}",
         f"VETOES = {tuple(each.text for each in schema.bits['vetoes'])}",
@@ -177,6 +182,8 @@ def javascript(schema: Schema) -> str:
                       for mode in schema.modes} | {
                           name: {"about": about, "holder": ""}
                           for name, about in schema.mode_texts.items()}),
+        "The board's modes in which a mode of the Raspberry Pi flies.": (
+            "PI_MODES", list(_pi_modes(schema))),
         "Rows of the board panel; `style` applies to the value `when`.": ("BOARD_ROWS", rows),
         "Rows of the navigation panel.": ("NAVIGATION_ROWS", [
             {"label": each.label, "path": each.name, "unit": each.unit, "decimals": each.decimals,
@@ -244,8 +251,8 @@ def java(schema: Schema) -> str:
 
     shown = [each for each in schema.rules if each["event"] or each["alarm"]]
     fields = [each for each in schema.fields if each.in_telemetry]
-    imports = "".join(f"import java.util.{each};\n" for each in (
-        "ArrayList", "Collections", "HashMap", "LinkedHashMap", "List", "Map"))  # fmt: skip
+    used = ("ArrayList", "Arrays", "Collections", "HashMap", "LinkedHashMap", "List", "Map")
+    imports = "".join(f"import java.util.{each};\n" for each in used)
     times = "".join(
         f"    static final {kind} {name} = {value};\n"
         for name, kind, value in (
@@ -275,6 +282,9 @@ public final class TelemetrySchema {{
     static final Map<String, String> MODE_REASONS = new HashMap<>();
     private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
     private static final Map<String, Boolean> OPTIONAL = new HashMap<>();
+    /** The board's modes in which a mode of the Raspberry Pi flies. */
+    static final List<String> PI_MODES =
+            Arrays.asList({", ".join(map(json.dumps, _pi_modes(schema)))});
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();

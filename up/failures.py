@@ -9,7 +9,7 @@ from collections.abc import Mapping
 class FailureSource:
     """A second base class of a module that knows of failures in flight.
 
-    ``failsafe.yml`` says by their codes what follows.
+    ``failsafe.yml`` gives the reaction to each code.
     """
 
     @property

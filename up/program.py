@@ -28,7 +28,7 @@ from up.output import print_problems
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.system.deadline_watch import start_from_environment
 from up.system.exit_watchdog import ExitWatchdog
-from up.system.gc_scheduler import GcScheduler
+from up.system.gc_scheduler import GcScheduler, frozen_imports
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service
 from up.system.reactor_monitor import ReactorMonitor
@@ -179,7 +179,8 @@ def run_application(
         context = make_context(application, reactor, config_folder, environ)
         _start_log(context)
         use_realtime_priority(context.application.realtime_priority)
-        plan = UpLoader(application, context).plan()
+        with frozen_imports():
+            plan = UpLoader(application, context).plan()
         files = config_files(plan.modules)
         nothing = no_configuration(context.config_folder, files)
         if nothing is not None and not use_defaults:

@@ -6,11 +6,16 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from up.commands.board_schema import PI_MODES
 from up.commands.telemetry_schema import READINGS
 from up.flight_log.json_message import value_at
 
 MAX_POSITION_AGE_MS = READINGS["navigation"].stale_s * 1000
-_BOARD_FOLLOWS = ("SETPOINT", "RETURN", "OUTPUT")
+
+
+def acting_mode(board: str | None, pi: str | None) -> str | None:
+    """Return the flight mode that acts, of the board's and that of the Raspberry Pi."""
+    return pi or board if board in PI_MODES else board
 
 
 class Frame:
@@ -51,10 +56,8 @@ class Frame:
     @property
     def mode(self) -> str:
         """Return the flight mode that acts: the Raspberry Pi's while it flies; empty: unknown."""
-        board = self.text("flight_mode") or ""
-        if board in _BOARD_FOLLOWS:
-            return self.text("flight_control", "mode") or board
-        return board
+        board = self.text("flight_mode")
+        return acting_mode(board, self.text("flight_control", "mode")) or ""
 
     @property
     def clock_ms(self) -> int:

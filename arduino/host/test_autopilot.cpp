@@ -12,7 +12,6 @@ namespace {
 typedef std::vector<uint8_t> Bytes;
 
 constexpr size_t FLAGS_AT = 3;
-constexpr size_t VETOES_AT = 4;
 constexpr size_t CAUSE_AT = 5;
 constexpr uint8_t ARMED = 1;
 constexpr uint8_t GAINS_STORED = 64;

@@ -31,7 +31,7 @@ class Server(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class ClusterConfig:
+class FleetConfig:
     """The NATS servers over which several proxies or runners act as one."""
 
     servers: str = key(
@@ -56,9 +56,6 @@ class ClusterConfig:
         "Folder with ca.pem, certificate.pem, key.pem and revoked.pem for the connection to NATS, "
         "relative to this file. The servers need 'handshake_first: true'. Empty: no TLS.",
         max_length=4096,
-    )
-    replicas: int = key(
-        3, "Servers that keep each lease: 3, or 1 where there is one.", minimum=1, maximum=5
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
@@ -93,4 +90,13 @@ class ClusterConfig:
         return {"user": user, "pass": password} if colon else {"auth_token": text}
 
 
-FLEET = ConfigFile("fleet.yml", ClusterConfig)
+@dataclass(frozen=True, slots=True)
+class ClusterConfig(FleetConfig):
+    """The NATS servers over which several proxies or runners act as one."""
+
+    replicas: int = key(
+        3, "Servers that keep each lease: 3, or 1 where there is one.", minimum=1, maximum=5
+    )
+
+
+FLEET = ConfigFile("fleet.yml", FleetConfig)

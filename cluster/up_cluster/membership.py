@@ -14,7 +14,7 @@ from up.log import UpLogger
 from up.system.clock import Timer, cancel
 from up.tls.files import TLSFiles
 from up_cluster import nats_protocol as nats
-from up_cluster.config import ClusterConfig
+from up_cluster.config import FleetConfig
 from up_cluster.jetstream import JetStreamError
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.lease import RENEWALS, TTL_S, LeaseStore
@@ -41,14 +41,14 @@ def aircraft_of(key: str) -> str:
 class Membership:
     """Connects a program, makes the buckets, and passes requests to its actions.
 
-    `actions` are by name; `up-fleet` sends `report` to all members together. The constructor raises
-    ClusterError, TLSError.
+    `actions` are by name; `up-fleet` sends `report` to all members together, and has no
+    `replicas`: it makes no buckets. The constructor raises ClusterError, TLSError.
     """
 
     def __init__(
         self,
         reactor: Any,
-        config: ClusterConfig,
+        config: FleetConfig,
         folder: Path,
         *,
         program: str,
@@ -56,6 +56,7 @@ class Membership:
         member_id: str = "",
         ttl_s: int = TTL_S,
         renewals: int = RENEWALS,
+        replicas: int = 0,
     ) -> None:
         self._reactor = reactor
         self._config = config
@@ -75,8 +76,11 @@ class Membership:
         self.leases = LeaseStore(self.bucket, reactor, self.id, ttl_s, renewals)
         self.actions: dict[str, Action] = {}
         self.on_connected: Callable[[bool], object] = lambda _: None
-        self.makers: list[Callable[[int], Awaitable[None]]] = [self.bucket.create]
+        self._replicas = replicas
+        self.makers: list[Callable[[int], Awaitable[None]]] = []
         """Make the buckets, with the number of replicas."""
+        if replicas:
+            self.makers.append(self.bucket.create)
         self.on_ready: Callable[[], object] = lambda: None
         self.is_ready = False
         """NATS is connected and has the buckets."""
@@ -115,7 +119,7 @@ class Membership:
     async def _make(self) -> None:
         try:
             for make in self.makers:
-                await make(self._config.replicas)
+                await make(self._replicas)
         except (NatsUnavailableError, JetStreamError) as error:
             _log.debug("no bucket yet: {reason}", code="no_bucket", reason=str(error))
             if self.client.is_connected:

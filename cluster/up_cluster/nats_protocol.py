@@ -15,11 +15,11 @@ MAX_MESSAGE_BYTES = 8 * 2**20
 """Headers and payload of a message; the default of a server is 1 MiB."""
 PING, PONG = b"PING\r\n", b"PONG\r\n"
 
-_MESSAGE = re.compile(rb"MSG ([!-~]+) ([0-9]{1,10}) ([0-9]{1,10})\r\n")
-"""Of a message without a reply and headers: the path of every relayed line."""
 _SUBJECT = re.compile(r"[!-~]+", re.ASCII)
 _STATUS = re.compile(r"NATS/1\.0(?: ([0-9]{3})(?: (.*))?)?", re.ASCII)
 _NUMBER = re.compile(rb"[0-9]{1,10}")
+_SHORT = len(b"MSG  0123456789 0123456789") + 1
+"""One more than the bytes of a MSG, its subject and a reply left out."""
 
 
 class NatsProtocolError(ValueError):
@@ -75,14 +75,6 @@ class NatsParser:
         at = 0
         try:
             while True:
-                if (quick := _MESSAGE.match(buffer, at)) is not None:
-                    begin = quick.end()
-                    end = begin + int(quick[3])
-                    if buffer[end : end + 2] == b"\r\n":
-                        at = end + 2
-                        subject = quick[1].decode("ascii")
-                        yield Message(subject, int(quick[2]), "", b"", buffer[begin:end])
-                        continue
                 if (end := buffer.find(b"\r\n", at)) < 0:
                     break
                 line = buffer[at:end]
@@ -90,6 +82,23 @@ class NatsParser:
                     break
                 at_payload = end + 2
                 if line[:4] == b"MSG ":
+                    # Without a reply: the path of every relayed line.
+                    words = line.split(b" ")
+                    numbers = words[2:]
+                    if (
+                        len(numbers) == 2
+                        and len(line) - len(words[1]) < _SHORT
+                        and numbers[0].isdigit()
+                        and numbers[1].isdigit()
+                    ):
+                        stop = at_payload + int(numbers[1])
+                        if buffer[stop : stop + 2] == b"\r\n":
+                            at = stop + 2
+                            subject = words[1].decode("utf-8", "replace")
+                            yield Message(
+                                subject, int(numbers[0]), "", b"", buffer[at_payload:stop]
+                            )
+                            continue
                     words = line.split()
                     sizes = words[-1:]
                 elif line[:5] == b"HMSG ":

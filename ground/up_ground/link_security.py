@@ -59,7 +59,7 @@ class LinkSecurity:
     def open(self, line: bytes) -> bytes | None:
         """Return the body of a line; None: it is a handshake, for others, or refused and counted.
 
-        A plain line is refused: whoever can drop the protected ones could have written it.
+        A plain line is refused: an attacker who can drop the protected ones could have written it.
         """
         try:
             body = to_body(line)

@@ -33,7 +33,7 @@ from up_ground.telemetry import Telemetry
 PITCH_RANGE_DEG = 60.0
 """From the upper edge of the picture to the lower one."""
 _LETTER_ASPECT = 2.0
-"""A character is about twice as high as it is wide."""
+"""A character's height divided by its width, about."""
 
 
 def draw_horizon(

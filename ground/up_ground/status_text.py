@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from up import telemetry_frame
 from up.commands.event_rules import UNKNOWN, fill
 from up.commands.telemetry_schema import MODE_REASONS, RULES
 from up_ground.link_status import LinkStatus
@@ -45,9 +46,7 @@ def busy_text(telemetry: Telemetry) -> str:
 def acting_mode(telemetry: Telemetry) -> str | None:
     """Return the flight mode that acts: the Raspberry Pi's while it flies; None: unknown."""
     board = telemetry.text("flight_mode", limit=10)
-    if board in ("SETPOINT", "RETURN", "OUTPUT"):
-        return telemetry.text("flight_control", "mode", limit=12) or board
-    return board
+    return telemetry_frame.acting_mode(board, telemetry.text("flight_control", "mode", limit=12))
 
 
 def home_text(telemetry: Telemetry) -> str:

@@ -160,7 +160,7 @@ class AircraftSession(Owner):
         air.send(Watchers(len(grounds), int(packed), int(attitude)).encode())
 
     def sweep(self) -> None:
-        """Send what is due: to the grounds, and to an aircraft that knows `Watchers`."""
+        """Send the due lines: to the grounds, and to an aircraft that knows `Watchers`."""
         self.announce()
         self.report_watchers(is_news=False)
         air, now_s = self.air_lease.owner, self._poller.now_s

@@ -42,7 +42,7 @@ def run(reactor: Any, config: ProxyConfig, folder: Path = Path()) -> int:
     """Serve until SIGTERM, SIGINT or SIGHUP; return the exit status."""
     from up_proxy.proxy import Proxy
 
-    # Before the ports are open: whoever sees them may end this program.
+    # Before the ports are open: a program that sees them open may end this one.
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         # 'nohup' ignores SIGHUP; a shell's background job ignores SIGINT, which still ends it.
         if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:

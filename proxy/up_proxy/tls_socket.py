@@ -8,7 +8,7 @@ _RECORD_BYTES = 16384
 
 
 class TLSSocket:
-    """One record at a time, so that what is not sent can be repeated exactly.
+    """One record at a time, so that an unsent record can be repeated exactly.
 
     After a `send` that would block, ``attempted`` bytes are encrypted already: the next `send`
     must begin with the same ones.

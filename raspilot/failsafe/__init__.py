@@ -1,1 +1,1 @@
-"""What the aircraft does by itself when something fails in flight."""
+"""Automatic actions when something fails in flight."""

@@ -9,6 +9,7 @@ from twisted.python.failure import Failure
 
 from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import Cascade, YawDamper, pitch_rate_in_turn
+from raspilot.navigation.limits import limited
 from up.base_module import BaseModule
 from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.commands.gains import Gains
@@ -95,14 +96,14 @@ class AttitudeController(BaseModule):
                 raise DemandError("the board's frame has no rotation rates", "rates")
             roll_deg = attitude.roll_deg
             limits = self._limits
-            bank_deg = max(-limits.roll_deg, min(limits.roll_deg, demand.roll_deg))
-            nose_deg = max(-limits.pitch_down_deg, min(limits.pitch_up_deg, demand.pitch_deg))
+            bank_deg = limited(demand.roll_deg, -limits.roll_deg, limits.roll_deg)
+            nose_deg = limited(demand.pitch_deg, -limits.pitch_down_deg, limits.pitch_up_deg)
             is_inverted = abs(roll_deg) >= 90
-            self._roll.limit_rate(
+            self._roll.stabilize.limit = (
                 INVERTED_ROLL_RATE_LIMIT_DEG_S if is_inverted else ROLL_RATE_LIMIT_DEG_S
             )
             ailerons_us = CENTRE_US + self._roll.hold_angle(bank_deg, roll_deg, roll_rate, dt_s)
-            wanted_deg_s = self._pitch.rate_towards(nose_deg, attitude.pitch_deg, dt_s)
+            wanted_deg_s = self._pitch.stabilize.step(nose_deg, attitude.pitch_deg, dt_s)
             turn_deg_s = pitch_rate_in_turn(wanted_deg_s, roll_deg, yaw_rate)
             elevator_us = CENTRE_US + self._pitch.hold_rate(turn_deg_s, pitch_rate, dt_s)
             rudder_us = demand.rudder_us + self._yaw.deflection_us(yaw_rate, dt_s)

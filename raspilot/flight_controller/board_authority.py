@@ -54,9 +54,10 @@ class BoardAuthority:
     @property
     def may_publish(self) -> bool:
         """Return whether the board may follow: it waits for set-points, and asks for Outputs."""
-        if self.is_failsafe or self._is_output:
-            return self.is_failsafe or self.is_followed
-        return self.is_auto
+        state = self.state
+        if state is None or state.is_failsafe:
+            return state is not None
+        return state.flight_mode in self._followed_modes if self._is_output else state.is_auto
 
     @property
     def is_flown(self) -> bool:

@@ -73,37 +73,30 @@ class Cascade:
     The Stabilize PID turns an angle error (deg) into a wanted rate (deg/s, limited); the Rate PID
     turns the rate error into servo units of 1.25 us, limited to 400 of them (500 us). Derivatives
     are on the measurement and the limits stop the integrals. Inputs must be finite: the provider
-    guarantees it.
+    guarantees it. The limit of ``stabilize`` may change between two steps.
     """
 
-    __slots__ = ("_rate", "_stabilize")
+    __slots__ = ("_rate", "stabilize")
 
     def __init__(self, rate: Gains, stabilize: Gains, rate_limit_deg_s: float) -> None:
-        self._stabilize = Pid(stabilize, rate_limit_deg_s)
+        self.stabilize = Pid(stabilize, rate_limit_deg_s)
         self._rate = Pid(rate, OUTPUT_LIMIT)
 
     def tune(self, rate: Gains, stabilize: Gains) -> None:
         """Set other gains, keeping the integrals."""
         self._rate.tune(rate)
-        self._stabilize.tune(stabilize)
-
-    def limit_rate(self, rate_limit_deg_s: float) -> None:
-        self._stabilize.limit = rate_limit_deg_s
+        self.stabilize.tune(stabilize)
 
     def reset(self) -> None:
         self._rate.reset()
-        self._stabilize.reset()
+        self.stabilize.reset()
 
     def hold_angle(
         self, wanted_deg: float, angle_deg: float, rate_deg_s: float, dt_s: float
     ) -> float:
         """Return the servo deflection, us."""
-        wanted_deg_s = self._stabilize.step(wanted_deg, angle_deg, dt_s)
+        wanted_deg_s = self.stabilize.step(wanted_deg, angle_deg, dt_s)
         return US_PER_UNIT * self._rate.step(wanted_deg_s, rate_deg_s, dt_s)
-
-    def rate_towards(self, wanted_deg: float, angle_deg: float, dt_s: float) -> float:
-        """Return the rotation rate, deg/s, that leads to an angle."""
-        return self._stabilize.step(wanted_deg, angle_deg, dt_s)
 
     def hold_rate(self, wanted_deg_s: float, rate_deg_s: float, dt_s: float) -> float:
         return US_PER_UNIT * self._rate.step(wanted_deg_s, rate_deg_s, dt_s)

@@ -182,9 +182,8 @@ class FlightModeManager(BaseFlightController):
 
     def _estimate(self, max_age_s: float) -> NavigationState | None:
         provider: Any = self._providers.get("navigation")
-        if provider is None or provider.fresh(max_age_s) is None:
-            return None
-        state: NavigationState = provider.state
+        is_fresh = provider is not None and provider.fresh(max_age_s) is not None
+        state: NavigationState | None = provider.state if is_fresh else None
         return state
 
     def _on_orientation(self, reading: Reading[OrientationCommand]) -> None:
@@ -366,8 +365,7 @@ class FlightModeManager(BaseFlightController):
 
     def _on_target(self, command: NavigationTargetCommand) -> None:
         target, situation = self.home.target_of(command, self._navigation), self._situation
-        name = self.acting_mode or ""
-        modes = self._selector.modes
+        name, modes = self.acting_mode or "", self._selector.modes
         if name not in modes or "target" not in modes[name].REQUESTS:
             name = Guided.NAME
         if situation is not None and name in modes:

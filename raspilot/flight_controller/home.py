@@ -174,7 +174,7 @@ def telemetry_of(place: Place | None, *more: str) -> dict[str, float | None]:
 
 
 def place_of_target(target: Target, frame: LocalFrame) -> Place:
-    """Return a target as it is saved."""
+    """Return the saved form of a target."""
     latitude_deg, longitude_deg = frame.degrees(target.point)
     return Place(latitude_deg, longitude_deg, target.altitude_m, target.radius_m)
 
@@ -206,7 +206,7 @@ def _check_altitude(
     if home is None:
         reference_m, limit_m, what = require_position(navigation).altitude_m, 500.0, "the aircraft"
     else:
-        reference_m, limit_m, what = home.altitude_m, MAX_HOME_STEP_M, "home as it is now"
+        reference_m, limit_m, what = home.altitude_m, MAX_HOME_STEP_M, "the present home"
     away_m = altitude_m - reference_m
     if abs(away_m) > limit_m:
         side = "above" if away_m > 0 else "below"

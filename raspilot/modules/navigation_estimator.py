@@ -93,22 +93,29 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def state(self) -> NavigationState | None:
         """Return the estimate at the newest orientation; None before the first fix."""
         if self._is_old:
-            self._state = self.estimator.state()
-            self._is_old = False
+            self._renew()
         return self._state
 
     @property
     def reading(self) -> Reading[NavigationState] | None:
-        taken_s, fix = self.estimator.fix_time_s, self.location.reading
-        state = None if taken_s is None else self.state
-        if state is None or taken_s is None or fix is None:
-            return None
-        if self._reading is None or self._reading.value is not state:
-            self._reading = Reading(state, fix.source, taken_s)
+        if self._is_old:
+            self._renew()
         return self._reading
 
+    def _renew(self) -> None:
+        state, self._reading = self.estimator.state(), None
+        if state is not None:
+            taken_s, fix = self.estimator.fix_time_s, self.location.reading
+            if taken_s is not None and fix is not None:
+                self._reading = Reading(state, fix.source, taken_s)
+        self._state = state
+        self._is_old = False
+
     def fresh(self, max_age_s: float) -> Reading[NavigationState] | None:
-        return None if self.reading is None else super().fresh(max_age_s)
+        reading = self.reading
+        if reading is None or self._seconds() - reading.time_s > max_age_s:
+            return None
+        return reading
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:

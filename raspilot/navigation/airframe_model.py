@@ -26,7 +26,8 @@ class AirframeModel:
         self.speeds = config.airspeed
         self.has_motor = config.performance.motor
         self.level_throttle = config.performance.level_throttle
-        self._least_sink_m_s = self.speeds.best_glide_m_s / config.performance.glide_ratio
+        self._best_glide_m_s = self.speeds.best_glide_m_s
+        self._half_sink_m_s = 0.5 * (self._best_glide_m_s / config.performance.glide_ratio)
         self._cruise_sink_m_s = self.sink_m_s(self.speeds.cruise_m_s, 1.0)
         level = config.performance.level_throttle
         full_m_s = self._cruise_sink_m_s + config.performance.full_throttle_climb_m_s
@@ -41,8 +42,8 @@ class AirframeModel:
 
     def sink_m_s(self, airspeed_m_s: float, load: float) -> float:
         """Return the sink without motor: a parabolic polar."""
-        part = airspeed_m_s / self.speeds.best_glide_m_s
-        return 0.5 * self._least_sink_m_s * (part * part * part + load * load / part)
+        part = airspeed_m_s / self._best_glide_m_s
+        return self._half_sink_m_s * (part * part * part + load * load / part)
 
     def level_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
         """Return the pitch that holds the altitude: the part of the angle of attack upwards."""
@@ -70,7 +71,8 @@ class AirframeModel:
         """Return the power over the weight of a throttle, the inverse of ``throttle``."""
         if not self.has_motor:
             return 0.0
-        return max(0.0, throttle * (self._power_2 * throttle + self._power_1))
+        power_m_s = throttle * (self._power_2 * throttle + self._power_1)
+        return power_m_s if power_m_s > 0.0 else 0.0
 
     def least_climb_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
         """Return the pitch of ``LEAST_CLIMB_M_S``."""
@@ -103,7 +105,7 @@ class AirframeModel:
     def bank_limit_deg(self, airspeed_m_s: float) -> float:
         """Return the bank whose stall is still ``STALL_MARGIN`` below the airspeed."""
         cosine = STALL_MARGIN * STALL_MARGIN * self._lift(airspeed_m_s, 1.0)
-        return math.degrees(math.acos(min(1.0, cosine)))
+        return math.degrees(math.acos(cosine)) if cosine < 1.0 else 0.0
 
     def _lift(self, airspeed_m_s: float, load: float) -> float:
         """Return the part of the greatest lift that carries this load."""
@@ -112,4 +114,5 @@ class AirframeModel:
 
 def load_of(roll_deg: float) -> float:
     """Return the load factor of a level turn, at most 2."""
-    return 1.0 / max(0.5, math.cos(math.radians(roll_deg)))
+    cosine = math.cos(math.radians(roll_deg))
+    return 1.0 / cosine if cosine > 0.5 else 2.0

@@ -32,11 +32,12 @@ class AirspeedModel:
 
     def step(self, dt_s: float, roll_deg: float, pitch_deg: float, throttle: float) -> None:
         """Advance by ``dt_s``."""
-        speed, self._flown = self.airspeed_m_s, (load_of(roll_deg), pitch_deg)
-        self.climb_m_s, self.coast_m_s2 = self._motion(speed, *self._flown)
+        speed, load = self.airspeed_m_s, load_of(roll_deg)
+        self._flown = load, pitch_deg
+        self.climb_m_s, self.coast_m_s2 = self._motion(speed, load, pitch_deg)
         self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / speed
         change = self.coast_m_s2 + (0.0 if self.motor_stopped else self.thrust_m_s2)
-        self.airspeed_m_s = self._limited(speed + change * dt_s)
+        self.airspeed_m_s = limited(speed + change * dt_s, self._slowest, self._fastest)
 
     def more_m_s2(self, factor: float) -> float:
         """Return how much more the acceleration is, with thrust, at ``factor`` times the speed."""

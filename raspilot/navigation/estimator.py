@@ -144,8 +144,8 @@ class Estimator:
 
     def orientation(self, time_s: float, roll_deg: float, pitch_deg: float, yaw_deg: float) -> None:
         """Take an attitude and advance the air path to its time."""
-        within = abs(roll_deg) <= 360.0 and abs(pitch_deg) <= 360.0 and abs(yaw_deg) <= 360.0
-        if not (abs(time_s) < MAX_TIME_S and within):
+        within = -360.0 <= roll_deg <= 360.0 and -360.0 <= pitch_deg <= 360.0
+        if not (within and -360.0 <= yaw_deg <= 360.0 and -MAX_TIME_S < time_s < MAX_TIME_S):
             return
         newest, model = self._path.newest, self._model
         yaw = math.radians(yaw_deg)
@@ -238,10 +238,10 @@ class Estimator:
             return None
         if now_s is not None and now_s > now.time_s:
             now = self._path.at(now_s) or now
-        vertical = self.vertical
-        x = filter_.x
+        altitude_m, climb, altitude_sd = self.vertical.state_at(now.time_s, now.climb_m)
+        x, model = filter_.x, self._model
         along, across = filter_.variances()
-        speed = self._model.airspeed_m_s * math.hypot(x[2], x[3])
+        speed = model.airspeed_m_s * math.hypot(x[2], x[3])
         offset_rad = math.atan2(x[3], x[2])
         in_flight = self._flight.is_in_flight
         across += unseen_variance(now.unseen_s - then.unseen_s)
@@ -250,19 +250,18 @@ class Estimator:
             position, velocity = self._position_at(now), self._velocity_at(now)
             position_variance = filter_.position_variance(then, now)
             airspeed_sd = speed * math.sqrt(along + MIN_AIRSPEED_SD**2)
-            climb = vertical.climb_error_at(now.time_s) + self._model.climb_m_s
+            climb += model.climb_m_s
         else:
             position, velocity = Point(x[0], x[1]), Point(*self._velocity_m_s)
             age_s = now.time_s - then.time_s
             position_variance = filter_.p[0][0] + filter_.p[1][1] + (GROUND_SD_M_S * age_s) ** 2
-            speed, airspeed_sd, climb = 0.0, self._model.airspeed_m_s, 0.0
-        altitude_sd = vertical.sd_at(now.time_s)
+            speed, airspeed_sd, climb = 0.0, model.airspeed_m_s, 0.0
         return NavigationState(
             time_s=now.time_s,
             frame=frame,
             position=position,
             velocity_m_s=velocity,
-            altitude_m=vertical.altitude_at(now.time_s, now.climb_m),
+            altitude_m=altitude_m,
             climb_m_s=climb,
             wind_m_s=Point(self._wind.north_m_s, self._wind.east_m_s),
             airspeed_m_s=speed,
@@ -273,7 +272,7 @@ class Estimator:
             altitude_sd_m=math.hypot(altitude_sd, PRESSURE_SD_M),
             wind_sd_m_s=math.sqrt(max(0.0, filter_.p[4][4] + filter_.p[5][5]) + MIN_WIND_SD_M_S**2),
             airspeed_sd_m_s=airspeed_sd,
-            heading_sd_deg=min(180.0, heading_sd),
+            heading_sd_deg=heading_sd if heading_sd < 180.0 else 180.0,
             fix_age_s=now.time_s - then.time_s,
             motor_stopped=self.motor.is_stopped,
             motor_watched=self.motor.is_watching(now.time_s),

@@ -26,10 +26,11 @@ class FlightWatch:
         self._attitude_deg = (0.0, 0.0)
 
     def attitude(self, dt_s: float, roll_deg: float, pitch_deg: float) -> None:
-        moved = abs(math.remainder(roll_deg - self._attitude_deg[0], 360.0))
-        moved += abs(pitch_deg - self._attitude_deg[1])
-        self._attitude_deg = (roll_deg, pitch_deg)
-        share = min(1.0, dt_s / STILL_TAU_S)
+        before_deg, self._attitude_deg = self._attitude_deg, (roll_deg, pitch_deg)
+        moved = abs(math.remainder(roll_deg - before_deg[0], 360.0)) + abs(
+            pitch_deg - before_deg[1]
+        )
+        share = dt_s / STILL_TAU_S if dt_s < STILL_TAU_S else 1.0
         self._motion_deg_s += share * (moved / dt_s - self._motion_deg_s)
 
     def fix(self, time_s: float, velocity_m_s: tuple[float, float] | None) -> bool:

@@ -52,7 +52,7 @@ class HorizontalFilter:
     @property
     def is_oriented(self) -> bool:
         """Return whether the offset of the yaw is known at all."""
-        return abs(self.factor) > MIN_FACTOR
+        return abs(complex(self.x[2], self.x[3])) > MIN_FACTOR
 
     def set_offset(self, offset_rad: float, sd_rad: float) -> None:
         """Start with a known offset of the yaw, for example from a compass."""
@@ -164,7 +164,7 @@ class HorizontalFilter:
             return aa + bb, aa + bb
         along = (a * a * aa + 2 * a * b * ab + b * b * bb) / (squared * squared)
         across = (b * b * aa - 2 * a * b * ab + a * a * bb) / (squared * squared)
-        return max(along, 0.0), max(across, 0.0)
+        return along if along > 0.0 else 0.0, across if across > 0.0 else 0.0
 
     def position_variance(self, then: AirPoint, now: AirPoint) -> float:
         """Return the sum of both axes' variances at a later point of the air path."""
@@ -222,7 +222,7 @@ class HorizontalFilter:
 
 def unseen_variance(unseen_s: float) -> float:
     """Return that of the heading (rad squared) after a time without orientation."""
-    return min(1.0, (UNSEEN_RAD_S * unseen_s) ** 2)
+    return min(1.0, (UNSEEN_RAD_S * unseen_s) ** 2) if unseen_s else 0.0
 
 
 def _diagonal(*deviations: float) -> list[list[float]]:

@@ -60,7 +60,8 @@ class LateralGuidance:
             through_air_m_s, heading_rad = airspeed_m_s, math.radians(state.heading_deg)
         else:
             heading_rad = math.atan2(air_east, air_north)
-        turning = GRAVITY_M_S2 * math.tan(math.radians(_bank(state.roll_deg))) / airspeed_m_s
+        bank_rad = math.radians(limited(state.roll_deg, -60.0, 60.0))
+        turning = GRAVITY_M_S2 * math.tan(bank_rad) / airspeed_m_s
         heading_rad += turning * self._config.roll_delay_s
         wanted_rad, rate_factor = _heading(course_rad, through_air_m_s, wind_north, wind_east)
         error_rad = self._error(wanted_rad - heading_rad)
@@ -99,17 +100,19 @@ class LateralGuidance:
             )
             right_m += self._integral(path, right_m, l1_m, state.time_s)
             return tangent - math.asin(limited(right_m / l1_m, -1.0, 1.0)), 0.0
-        radius_m = max(MIN_RADIUS_M, path.radius_m)
+        radius_m = path.radius_m if path.radius_m > MIN_RADIUS_M else MIN_RADIUS_M
         out_north = _far(north_m - path.centre.north_m)
         out_east = _far(east_m - path.centre.east_m)
         outside_m = math.hypot(out_north, out_east) - radius_m
-        l1_m = max(min(l1_m, MAX_L1_OF_RADIUS * radius_m), 1.0)
+        l1_m = limited(l1_m, 1.0, MAX_L1_OF_RADIUS * radius_m)
         side = 1.0 if path.is_clockwise else -1.0
         bearing = math.atan2(out_east, out_north)
         inward = math.asin(limited(outside_m / l1_m, -1.0, 1.0))
+        away_m = radius_m
         if outside_m > 0.0:
             # From far away onto the tangent, not towards the centre.
-            inward = min(inward, math.acos(radius_m / (radius_m + outside_m)))
+            away_m += outside_m
+            inward = min(inward, math.acos(radius_m / away_m))
         course = bearing + side * (0.5 * math.pi + inward)
         along_m_s = side * (
             math.cos(bearing) * state.velocity_m_s.east_m
@@ -117,7 +120,7 @@ class LateralGuidance:
         )
         # Far outside the rate belongs to a straight line.
         share = math.cos(inward)
-        return course, side * share * max(0.0, along_m_s) / max(radius_m, radius_m + outside_m)
+        return course, side * share * (along_m_s if along_m_s > 0.0 else 0.0) / away_m
 
     def _integral(self, path: Line, beside_m: float, l1_m: float, time_s: float) -> float:
         """Return the integral of the distance beside the path, m.
@@ -150,10 +153,6 @@ def _heading(
         return course_rad, 1.0
     heading = math.atan2(ground * sine - wind_east, ground * cosine - wind_north)
     return heading, min(2.0, ground / forward) if forward > 0.0 else 0.0
-
-
-def _bank(roll_deg: float) -> float:
-    return limited(roll_deg, -60.0, 60.0)
 
 
 def _far(distance_m: float) -> float:

@@ -53,7 +53,7 @@ class MotorWatch:
     A sequential test (Page's cumulative sum) of two suppositions, that the verdict holds and that
     it does not any more. Each learns its own slow error, and each acceleration adds how much more
     probable the second makes it. Little thrust is little evidence: a motor that stops while it
-    idles is noticed when the throttle opens. An error that grows slowly is none either.
+    idles is noticed when the throttle opens. An error that grows slowly is not evidence.
     """
 
     def __init__(self) -> None:

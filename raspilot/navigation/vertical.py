@@ -65,7 +65,7 @@ class EnergyControl:
         if self._smooth_m_s is None:
             self._smooth_m_s = airspeed
         acceleration = (airspeed - self._smooth_m_s) / RATE_S
-        share_of_rate = min(1.0, dt_s / RATE_S)
+        share_of_rate = dt_s / RATE_S if dt_s < RATE_S else 1.0
         self._smooth_m_s += (airspeed - self._smooth_m_s) * share_of_rate
         acceleration = limited(acceleration, -MAX_FELT_M_S2, MAX_FELT_M_S2)
         # What the airspeed's change stores, as a climb.
@@ -87,10 +87,13 @@ class EnergyControl:
         energy = climb + stored
         throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
         # At idle near the altitude the rest of the energy, of rising air, becomes airspeed.
-        near = 2.0 + asked_climb / config.sink_limit_m_s
-        idle = limited(min(near, 1.0 - throttle / IDLE_THROTTLE), 0.0, 1.0)
-        tolerated = max(fastest, min(model.speeds.maximum_m_s, wanted + idle * IDLE_FASTER_M_S))
-        wanted_stored = self._stored(airspeed, max(wanted, min(tolerated, airspeed)))
+        tolerated = fastest
+        if throttle < IDLE_THROTTLE:
+            near = 2.0 + asked_climb / config.sink_limit_m_s
+            idle = limited(min(near, 1.0 - throttle / IDLE_THROTTLE), 0.0, 1.0)
+            most = min(model.speeds.maximum_m_s, wanted + idle * IDLE_FASTER_M_S)
+            tolerated = max(fastest, most)
+        wanted_stored = self._stored(airspeed, limited(airspeed, wanted, tolerated))
         if state.motor_stopped:
             # A motor that pulls again, or pulled all along, is noticed by some throttle.
             throttle = min(throttle, model.throttle(model.sink_m_s(airspeed, load) + PROBE_M_S))
@@ -113,7 +116,7 @@ class EnergyControl:
         if share > 0.0:
             reserve = model.climb_pitch_deg if state.motor_watched else model.least_climb_pitch_deg
             limit += share * min(0.0, reserve(airspeed, load) - limit)
-        up, down = min(highest, limit), -config.pitch_down_limit_deg
+        up, down = limit if limit < highest else highest, -config.pitch_down_limit_deg
         if not (pitch >= up and growth > 0.0) and not (pitch <= down and growth < 0.0):
             grown = self._pitch_sum + growth
             self._pitch_sum = limited(grown, -MAX_PITCH_SUM_DEG, MAX_PITCH_SUM_DEG)
@@ -121,7 +124,7 @@ class EnergyControl:
 
     def least_airspeed_m_s(self, load: float) -> float:
         """Return the least airspeed in a turn of this load factor."""
-        return self._model.speeds.minimum_m_s * math.sqrt(max(1.0, load))
+        return self._model.speeds.minimum_m_s * math.sqrt(load if load > 1.0 else 1.0)
 
     def _stored(self, airspeed: float, wanted: float) -> float:
         """Return what the change towards an airspeed stores, as a climb."""

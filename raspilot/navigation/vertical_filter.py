@@ -72,18 +72,21 @@ class VerticalFilter:
         error_m = self._x[CLIMB] * _reach_s(self._passed_s(time_s))
         return self.altitude_m + climb_m - self._climb_m + error_m
 
-    def climb_error_at(self, time_s: float) -> float:
-        """Return what the modelled climb lacks, m/s."""
-        return self._x[CLIMB] * math.exp(-self._passed_s(time_s) / CLIMB_TAU_S)
+    def state_at(self, time_s: float, climb_m: float) -> tuple[float, float, float]:
+        """Return the altitude, what the modelled climb lacks (m/s), and the altitude's deviation.
 
-    def sd_at(self, time_s: float) -> float:
-        """Return that of the altitude; while it is held, without its constant error."""
-        dt = max(0.0, self._passed_s(time_s))
-        reach_s = _reach_s(dt)
-        altitude, climb = self._p[ALTITUDE], self._p[CLIMB]
+        While the altitude is held, that is without its constant error.
+        """
+        x, (altitude, climb, *_) = self._x, self._p
+        dt = 0.0 if self._time_s is None else time_s - self._time_s
+        kept = math.exp(-dt / CLIMB_TAU_S)
+        reach_s = CLIMB_TAU_S * (1.0 - kept)
+        altitude_m = x[ALTITUDE] + climb_m - self._climb_m + x[CLIMB] * reach_s
+        if dt < 0.0:
+            dt = reach_s = 0.0
         total = altitude[0] + 2.0 * reach_s * altitude[1] + reach_s * reach_s * climb[1]
         total += ALTITUDE_Q_M**2 * dt + _climbed_variance(dt, reach_s) + (RISING_M_S * dt) ** 2
-        return math.sqrt(min(max(total, 0.0), MAX_VARIANCE))
+        return altitude_m, x[CLIMB] * kept, math.sqrt(limited(total, 0.0, MAX_VARIANCE))
 
     def hold(self, is_held: bool) -> None:
         """Hold the altitude from now on, or let it follow the mean of the fixes again."""

@@ -305,7 +305,7 @@ class Instance:
             self._timer = self._clock.callLater(self._policy.kill_delay_s, self._child.kill)
 
     def _on_end(self, status: int | None) -> None:
-        """Decide what follows the end of the process."""
+        """Choose the next state after the end of the process."""
         self._drain()
         self._cancel_timers()
         self._child = None

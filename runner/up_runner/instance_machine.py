@@ -1,4 +1,4 @@
-"""The states of an instance: what may happen in each, and what follows."""
+"""The states of an instance, and the transitions that are allowed in each."""
 
 from __future__ import annotations
 

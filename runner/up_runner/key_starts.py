@@ -8,7 +8,7 @@ from up_runner.response import Problem
 
 
 class KeyStarts:
-    """Counts the starts of each key; those of before a restart of the runner are forgotten."""
+    """Counts the starts of each key; those before a restart of the runner are forgotten."""
 
     def __init__(self, clock: Clock, instances: int, per_minute: int) -> None:
         self._clock = clock

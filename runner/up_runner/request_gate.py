@@ -31,7 +31,7 @@ class RequestGate:
 
     @property
     def accepts_public(self) -> bool:
-        """Return whether peers with public addresses may connect: somebody can have a key."""
+        """Return whether peers with public addresses may connect."""
         if self._security in ("auto", "require"):
             has_keys = not all(each.refusal for each in self.keys.values())
             return self._accepts_plain or has_keys

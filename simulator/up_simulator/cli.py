@@ -23,8 +23,8 @@ from up_simulator.harness.signal_handling import orderly_exit
 from up_simulator.verbs.catalogue import INTERRUPTED, NOT_HELD, WRONG_INPUT
 
 DESCRIPTION = """\
-The virtual aircraft: the firmware that goes on the Arduino and the daemon that goes on the
-Raspberry Pi, flown by a flight dynamics model, in flights that are logged and evaluated."""
+The virtual aircraft: the firmware of the Arduino and the daemon of the Raspberry Pi, flown
+by a flight dynamics model, in flights that are logged and evaluated."""
 EPILOG = """\
 A first flight in three commands:
   up-sim list                        the scenarios
@@ -106,7 +106,8 @@ def _module(verb: str) -> Any:
                 f"'{verb}' is not built in here ({error.name})", "not_built"
             ) from error
         raise UsageError(
-            f"'{verb}' needs {error.name}, which is not installed: pip install -e '.[sim]'",
+            f"'{verb}' needs {error.name}, which is not installed:"
+            " pip install -e '.[sim]' ./flightlog",
             "import_missing",
         ) from error
 

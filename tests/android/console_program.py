@@ -59,8 +59,13 @@ class ConsoleProgram(JavaProcess):
         self.until(may_send, "the seat")
 
     def ask(self, name, **data):
-        """Send a Command and return its outcome."""
-        return self._ask(send=name, data=data)
+        """Send a Command and return its outcome; again where a busy machine made telemetry late."""
+
+        def answered():
+            answer = self._ask(send=name, data=data)
+            return None if answer.get("code") == "stale" else answer
+
+        return self.until(answered, f"{name} with telemetry that is new")
 
     def gains(self, wanted):
         """Request gains, set them or undo a change; return the outcome."""

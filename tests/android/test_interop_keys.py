@@ -87,7 +87,8 @@ def test_a_paired_phone_commands_until_its_key_is_revoked(proxy, daemon, own):
         relay.cut(9)
         console.until(lambda: console.status["link"] == "WAITING", "the cut within a record")
         console.holds()
-        assert console.ask("up.telemetry.frequency", frequency=40)["outcome"] == "ACK"
+        answer = console.ask("up.telemetry.frequency", frequency=40)
+        assert answer["outcome"] == "ACK", answer
 
         revoke_key(daemon.folder, "tablet")
         console.until(lambda: console.status["key_fault"] == "revoked", "the refusal")

@@ -42,8 +42,7 @@ TYPED = (
     "up.telemetry.frequency",
 )
 """Commands that both sides know with the same fields."""
-MANY = settings(
-    max_examples=300,
+ANY_DATA = settings(
     deadline=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
@@ -159,7 +158,7 @@ LINES = st.one_of(
 BYTES = st.one_of(LINES.map(lambda text: text.encode("utf-8", "surrogatepass")), st.binary())
 
 
-@MANY
+@ANY_DATA
 @given(line=BYTES)
 @example(b"")
 @example(b'\xef\xbb\xbf{"name": "a"}')
@@ -174,13 +173,13 @@ def test_a_line_is_the_same_message_or_none(echo, line):
     check(echo, line)
 
 
-@MANY
+@ANY_DATA
 @given(line=BYTES, at=st.integers(0, 200), cut=st.integers(0, 3), piece=st.binary(max_size=3))
 def test_a_damaged_line_is_the_same_message_or_none(echo, line, at, cut, piece):
     check(echo, line[:at] + piece + line[at + cut :])
 
 
-@settings(MANY, max_examples=600)
+@settings(ANY_DATA)
 @given(number=st.floats(allow_nan=False, allow_infinity=False))
 @example(5e-324)
 @example(2**-1074 * 3)
@@ -292,7 +291,7 @@ def check_command(echo, name, data):
     assert complaint is None, f"Python takes {name} {data}"
 
 
-@settings(MANY, max_examples=400)
+@settings(ANY_DATA)
 @given(command=commands())
 def test_a_command_is_valid_on_both_sides_or_on_none(echo, command):
     check_command(echo, *command)

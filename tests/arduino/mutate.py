@@ -100,7 +100,7 @@ def result_of(entry: dict, built: Path) -> str:
     """Return the result of one mutation; ``caught`` is the wanted one."""
     try:
         with tempfile.TemporaryDirectory() as folder:
-            # With what is built: only what the mutation changes is compiled again.
+            # With the object files: only files that the mutation changes are compiled again.
             arduino = shutil.copytree(built, Path(folder) / "arduino")
             apply(entry, arduino / "raspilot" / "src")
             return "NOT CAUGHT" if passes(arduino, [entry["test"]]) else "caught"

@@ -135,7 +135,7 @@ function selectBeforeAnswer(name) {
   };
 }
 
-test("what was begun for one aircraft is never sent to the next one", async () => {
+test("a Command that was begun for one aircraft is never sent to the next one", async () => {
   const ground = await opened();
   const select = (name) => ground.page.evaluate((name) => document.querySelector(`#fleet-list [data-aircraft="${name}"] button`).click(), name);
   await ground.takeControl();

@@ -84,9 +84,12 @@ test("a cut link is greyed out within a second, and only fresh data return", asy
   try {
     await ground.until(() => document.documentElement.dataset.aircraftState === "silent", "silence");
     await ground.until(
-      () => Number(document.querySelector("#silence").dataset.age) > 6,
+      () => Number(document.querySelector("#silence").dataset.ageS) > 6,
       "no news for 6 s",
     );
+    // The age is in the text; answers to Commands have theirs behind it.
+    const behind = () => getComputedStyle(document.querySelector("#silence"), "::after").content;
+    assert.equal(await ground.page.evaluate(behind), "none");
     const shown = (await ground.values()).filter(({ text }) => text !== "--");
     assert.ok(shown.length > 20);
     const wrong = shown.filter(({ key, freshness }) => freshness === "live" && !OF_THE_PAGE.includes(key));

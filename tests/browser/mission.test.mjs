@@ -128,6 +128,8 @@ test("a refused mission marks its items; a changed one is checked, used, read ba
   flight.tell({ plans: [50.0755, 14.4378, 312] });
   const { ground, at } = await drawing();
   const { page } = ground;
+  const newest = () => window.testMessages.findLast(({ message }) => message.type === "frame").message.data;
+  await ground.until(`(${newest})().mission`, "an aircraft that keeps plans");
   await ground.reason("#mission-why", "control_free");
   assert.equal(await page.isDisabled("#plan-upload"), true);
   await ground.takeControl();

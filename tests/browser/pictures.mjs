@@ -1,12 +1,17 @@
-// Pictures of a real flight on the page, for the documentation:
+// Pictures of a real flight on the page, and of its report, for the documentation:
 //   node pictures.mjs FOLDER         all
 //   node pictures.mjs FOLDER fleet   several aircraft, which need no flight
+//   node pictures.mjs FOLDER log     a flight of the simulator in the page of up log view
+import { execFileSync } from "node:child_process";
+import { readdirSync } from "node:fs";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 
 import { LAPTOP, PHONE, startBrowser } from "./support/browser.mjs";
 import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
+import { PYTHON, shortFolder, startProgram } from "./support/program.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 
 const [folder, only] = process.argv.slice(2);
@@ -49,7 +54,11 @@ async function flyMission(ground) {
 }
 
 async function take(ground, name) {
-  await ground.page.evaluate(() => document.activeElement?.blur());
+  await ground.page.evaluate(() => {
+    document.activeElement?.blur();
+    // A press of a button scrolls to it; the picture begins with the control panel.
+    document.querySelector("#panels").scrollTo(0, 0);
+  });
   await ground.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   await ground.page.screenshot({ path: join(folder, `ground-${name}.png`) });
 }
@@ -59,7 +68,7 @@ function other(latitude, longitude, heading, more) {
   const place = { latitude, longitude, altitude: 290 };
   const navigation = { ...place, height: 80, speed: 14, heading };
   const age_ms = { orientation: 12, flight: 20, location: 600, navigation: 50, heading: 40 };
-  return { data: { armed: true, location: place, navigation, age_ms, ...more } };
+  return { data: { armed: true, altitude: place.altitude, location: place, navigation, age_ms, ...more } };
 }
 
 async function takeFleet(browser) {
@@ -68,7 +77,7 @@ async function takeFleet(browser) {
   const serve = names.flatMap((name) => ["--aircraft", name]);
   const flight = await FakeFlight.start({ hello: hello(names[0]), serve });
   try {
-    const home = { latitude: 50.0752, longitude: 14.4362, altitude: 210 };
+    const home = { latitude: 50.0752, longitude: 14.4362, altitude: 210, distance: 119, bearing: 254, time_s: 9 };
     flight.tell(other(50.0755, 14.4378, 88, { home }));
     (await flight.another(hello(names[1]))).write(`${JSON.stringify(other(50.0764, 14.4398, 200, {}))}\n`);
     const arduino = { connected: true, failsafe: true, flight_battery_v: 10.9 };
@@ -84,27 +93,62 @@ async function takeFleet(browser) {
   }
 }
 
+/** The head of the report of the flight. */
+async function takeReport(browser, showcase) {
+  const [name] = readdirSync(showcase.flights).filter((each) => each.endsWith(".mcap"));
+  const report = join(showcase.folder, "report");
+  execFileSync(PYTHON, ["-m", "up.cli", "log", "report", join(showcase.flights, name), "-o", report]);
+  const page = await browser.newPage({ viewport: { width: 1120, height: 1380 }, colorScheme: "light" });
+  await page.goto(pathToFileURL(join(report, "report.html")).href);
+  await page.screenshot({ path: join(folder, "flight-report.png") });
+  await page.close();
+}
+
+/** A flight in the page of up log view, with the cursor in it. */
+async function takeLogView(browser) {
+  const flown = shortFolder();
+  execFileSync(PYTHON, ["-m", "up_simulator", "fly", "loiter-on-arduino", "--no-picture", "--output", flown.path]);
+  const flight = join(flown.path, "loiter-on-arduino", "flight.mcap");
+  const server = startProgram("up", ["log", "view", flight], { environment: { XDG_CACHE_HOME: flown.path } });
+  try {
+    const [address] = await server.line(/http:\/\/\S+/);
+    const page = await browser.newPage({ viewport: { width: 1440, height: 1000 }, colorScheme: "dark" });
+    await page.goto(address);
+    await page.waitForFunction(() => document.documentElement.dataset.opened);
+    const { x, y, width, height } = await page.locator(".log-panel .u-over").first().boundingBox();
+    await page.mouse.move(x + width * 0.6, y + height * 0.6);
+    await page.waitForFunction(() => document.querySelector("[data-signal] b")?.textContent);
+    await page.screenshot({ path: join(folder, "log-view.png") });
+    await page.close();
+  } finally {
+    await server.stop();
+    flown.remove();
+  }
+}
+
 const browser = await startBrowser();
-if (only === "fleet") {
-  await takeFleet(browser);
+const alone = { fleet: takeFleet, log: takeLogView };
+if (only) {
+  await alone[only](browser);
   await browser.close();
   process.exit();
 }
 const showcase = await startShowcase(["--turbulence", "light"], { isCalm: true });
 try {
   await takeFleet(browser);
+  await takeLogView(browser);
   const dark = { ...LAPTOP, colorScheme: "dark" };
   const ground = await (await GroundPage.open(browser, showcase.address, dark)).isLive();
   await ground.takeControl();
   await ground.answerTo(() => ground.press('[data-mode="FBW"]'));
+  const daylight = { ...LAPTOP, colorScheme: "light" };
+  const bright = await (await GroundPage.open(browser, showcase.address, daylight)).isLive();
   await hasFlown(ground, TRACK_M);
   await take(ground, "laptop");
   const phone = await (await GroundPage.open(browser, showcase.address, { ...PHONE, colorScheme: "dark" })).isLive();
   await hasFlown(phone, 40);
   await take(phone, "phone");
   await phone.close();
-  const daylight = { ...LAPTOP, colorScheme: "light" };
-  const bright = await (await GroundPage.open(browser, showcase.address, daylight)).isLive();
   const pilot = await new Pilot(showcase).ready();
   pilot.move({ aux1: 2000, aux2: 2000, throttle: 1600, ailerons: 1250 });
   await bright.until(() => Number(document.querySelector("#horizon-ball").dataset.roll) < -20, "a bank");
@@ -123,6 +167,8 @@ try {
   await ground.isLive();
   await flyMission(ground);
   await take(ground, "mission");
+  await showcase.land();
+  await takeReport(browser, showcase);
 } finally {
   await browser.close();
   await showcase.stop();

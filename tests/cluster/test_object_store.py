@@ -70,7 +70,7 @@ async def life(server):
     empty = await store.put_bytes("empty", b"")
     assert await store.get_bytes(empty) == b""
 
-    # What is not as it was written is not returned.
+    # An object that differs from the written one is not returned.
     chunk = await stored(client, "OBJ_up-state", {"seq": 1, "next_by_subj": "$O.up-state.C.*"})
     await write(client, chunk.subject, b"wen")
     await api(client, "STREAM.MSG.DELETE.OBJ_up-state", {"seq": chunk.sequence})

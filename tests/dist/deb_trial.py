@@ -144,7 +144,7 @@ def test_the_programs_and_their_libraries_are_complete(container):
     )
     assert "not found" not in linked and "libc.so.6" in linked
     container.output("up", "-f", "raspilot", "check", "--config", "/etc/raspilot")
-    # Run by root, a program would have compiled again what is not compiled for this Python.
+    # Run by root, a program would have compiled the files that have no bytecode of this Python.
     newer = ["-type", "f", "-newer", "/usr/lib/raspilot/pyvenv.cfg"]
     assert container.output("find", "/usr/lib/raspilot", *newer) == ""
 

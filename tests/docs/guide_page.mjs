@@ -98,7 +98,7 @@ try {
     await says("#silence", "no news for 1.2 s");
     await says("#alarms [role=alert]", "the aircraft is silent");
     // Then nothing that is sent now can be fresh again.
-    await ground.until(() => Number(document.querySelector("#silence").dataset.age) > 2.5, "2.5 s");
+    await ground.until(() => Number(document.querySelector("#silence").dataset.ageS) > 2.5, "2.5 s");
     place = PAGE.indexOf("no news for");
     const late = await ground.firstAnswerTo(() => press("Mark now"));
     assert.equal(late.code, "stale", JSON.stringify(late));

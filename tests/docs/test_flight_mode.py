@@ -115,14 +115,10 @@ def test_the_authors_test_passes(tree):
     assert "1 passed" in done.stdout, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("controller", ["arduino", "raspberry"])
-def test_it_flies_its_scenario_with_both_controllers(tree, controller):
-    scenario = (tree / "eight.yml").read_text()
-    assert "flight controller: arduino" in scenario
-    name = f"eight-{controller}"
-    changed = scenario.replace("flight controller: arduino", f"flight controller: {controller}")
-    (tree / f"{name}.yml").write_text(changed)
-    done = run(tree, "up_simulator", "fly", f"{name}.yml", "--no-picture", "--board", "host")
+def test_it_flies_its_scenario(tree):
+    # tests/simulator/scenarios/test_flight_mode_files.py flies another mode with both controllers.
+    assert "flight controller: arduino" in (tree / "eight.yml").read_text()
+    done = run(tree, "up_simulator", "fly", "eight.yml", "--no-picture", "--board", "host")
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -18,6 +18,7 @@ from tests.proxy.program import Program as Proxy
 from tests.support.application import plan_of, write_application
 from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
+from tools.schema_definition import Schema
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.location_command import LocationCommand
 from up.commands.origin import INTERNAL, Origin
@@ -86,6 +87,16 @@ def test_the_instrument_shows_the_modules_value(tmp_path, monkeypatch):
             timeout=120,
         )
     assert (done.returncode, done.stdout) == (0, "highest 412 m\n"), done.stderr
+
+
+def test_the_row_of_telemetry_is_valid(tmp_path):
+    text = (REPOSITORY / "docs/how-to/module.md").read_text()
+    file, row = re.search(r"<!-- row: (\w+) -->\n```yaml\n(.*?)```", text, re.DOTALL).groups()
+    shutil.copytree(REPOSITORY / "schema", tmp_path / "schema")
+    with (tmp_path / "schema" / f"{file}.yml").open("a", encoding="utf-8") as opened:
+        opened.write(row)
+    (rule,) = [rule for rule in Schema(tmp_path / "schema").rules if rule["code"] == "ceiling"]
+    assert (rule["path"], rule["above"]) == ("ceiling.highest_m", 1000)
 
 
 def test_the_module_is_shorter_than_15_lines_and_works(plane, tmp_path):

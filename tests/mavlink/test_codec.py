@@ -73,7 +73,6 @@ _VALUES = st.recursive(
 )  # fmt: skip
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.dictionaries(st.sampled_from(list(FRAME)), _VALUES), st.booleans())
 def test_every_message_of_any_telemetry_can_be_packed(content, is_whole):
     frame, packs = Frame({**FRAME, **content} if is_whole else content), codec()
@@ -85,7 +84,6 @@ def test_every_message_of_any_telemetry_can_be_packed(content, is_whole):
     assert set(BUILDERS) <= set(DEFAULTS_S)
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.lists(st.binary(max_size=300) | st.just(b"\xfd\x09\x00\x00"), max_size=8))
 def test_noise_is_dropped_and_what_is_kept_is_bounded(chunks):
     parser = codec()

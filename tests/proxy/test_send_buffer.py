@@ -1,6 +1,6 @@
 """Lines waiting for a slow peer."""
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from up_proxy.send_buffer import SendBuffer
@@ -39,7 +39,6 @@ ACTION = st.one_of(
 )
 
 
-@settings(max_examples=300)
 @given(st.integers(1, 60), st.lists(ACTION, max_size=40))
 def test_any_sequence_sends_whole_lines_in_order(limit, actions):
     """Lines are numbered, so that any glued, torn, doubled or reordered one shows."""

@@ -104,7 +104,7 @@ def test_the_age_of_the_reading_is_that_of_the_fix(rig):
     rig.fly(20)
     assert rig.module.age_ms == pytest.approx(500, abs=1)
     rig.fly(1)
-    # Before anything else reads the state: what is fresh is computed, never the value before.
+    # Before anything else reads the state: a new value is computed, the old one is never read.
     assert rig.module.fresh(0.51).value is rig.module.state
     assert rig.module.fresh(0.4) is None
     assert rig.module.reading.source == "android"
@@ -166,7 +166,7 @@ def test_a_wrong_phone_changes_nothing_until_it_is_the_only_source(rig):
     rig.fly(30, wrong_m=0.0)
     rig.fly(15, wrong_m=0.0, north_m=200.0)
     assert rig.module.location.reading.source == "gps" and abs(rig.off_m) < 5
-    # Nothing contradicts it any more, and the aircraft can have flown there.
+    # No measurement contradicts it now, and the aircraft can have flown there.
     rig.fly(20, north_m=200.0)
     assert rig.module.location.reading.source == "android" and rig.off_m > 150
 

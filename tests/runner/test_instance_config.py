@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from up.config.keys_file import KEYS, add_key, revoke_key
@@ -175,7 +175,6 @@ def test_a_persisted_file_stays_with_its_good_copy(config, tmp_path):
 scalars = st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.text(max_size=50)
 
 
-@settings(max_examples=300)
 @given(st.text(min_size=1, max_size=20), scalars)
 def test_every_value_arrives_as_it_was_sent(tmp_path_factory, key, value):
     folder = tmp_path_factory.mktemp("c")

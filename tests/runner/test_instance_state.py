@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from up_runner import instance_state
@@ -73,7 +73,6 @@ json_values = st.recursive(
 )
 
 
-@settings(max_examples=300)
 @given(st.sampled_from(["request", "process", "keep", "ready", "ports", "phone"]), json_values)
 def test_no_wrong_type_breaks_it(tmp_path_factory, key, value):
     folder = tmp_path_factory.mktemp("state") / "glider-1"

@@ -6,7 +6,7 @@ import socket
 import subprocess
 import sys
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.support.reactor import reactor, run_in_reactor, until
@@ -138,7 +138,6 @@ def test_malformed_fields_are_left_out():
         assert parse(words) == empty, words
 
 
-@settings(max_examples=1000)
 @given(st.binary(max_size=300) | st.builds(lambda data: b"X_UP_PORTS=" + data, st.binary()))
 def test_no_bytes_break_it(data):
     notification = parse(data)

@@ -4,7 +4,7 @@ import json
 import string
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from up_runner.request import MAX_LINE, NAME, MalformedRequest, Request, parse
@@ -41,7 +41,6 @@ def test_every_request_reads_as_it_was_meant(aircraft, profile, configuration, a
     assert parse(line) == parse(line + b"\r\n") == expected
 
 
-@settings(max_examples=2000)
 @given(st.binary(max_size=200) | st.text(max_size=200).map(lambda text: text.encode("utf-8")))
 @example(b"[" * MAX_LINE)
 @example(b'{"a":' * 10_000)
@@ -71,7 +70,6 @@ json_values = st.recursive(
 )
 
 
-@settings(max_examples=1000)
 @given(
     st.dictionaries(
         st.sampled_from(["aircraft", "profile", "configuration", "action"]), json_values

@@ -4,7 +4,7 @@ import itertools
 import json
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from twisted.internet.address import IPv4Address
 from twisted.internet.defer import Deferred, succeed
@@ -282,7 +282,6 @@ lines_and_garbage = st.lists(
 )
 
 
-@settings(max_examples=500)
 @given(lines_and_garbage, st.data())
 def test_the_cut_of_the_stream_changes_nothing(lines, data):
     stream = b'{"aircraft": "first"}\n' + b"".join(lines)

@@ -8,7 +8,7 @@ import socket
 import subprocess
 import sys
 import urllib.request
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from tests.support.tools import unavailable
@@ -52,7 +52,7 @@ def nats_server():
 
 
 def free_ports(count, host="127.0.0.1"):
-    """Return free ports: all are bound at once, so that they differ."""
+    """Return free ports: all are bound together, so that they differ."""
     sockets = [socket.create_server((host, 0)) for _ in range(count)]
     ports = [each.getsockname()[1] for each in sockets]
     for each in sockets:
@@ -104,16 +104,33 @@ class NatsServers:
         return [Server(*each) for each in zip(self.hosts, self.ports, strict=True)]
 
     def __enter__(self):
-        for number in range(len(self.processes)):
-            self.start(number)
-        until(lambda: all(map(self._is_listening, range(len(self.processes)))), "the NATS servers")
+        numbers = range(len(self.processes))
+        try:
+            for number in numbers:
+                self.start(number)
+            until(lambda: all(map(self._is_listening, numbers)), "the NATS servers")
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
-        for process in self.processes:
+        started = [each for each in self.processes if each is not None]
+        for process in started:
             process.kill()
-        for process in self.processes:
+        for process in started:
             process.wait(DEADLINE_S)
+
+    @contextmanager
+    def paused(self, *numbers):
+        """Stop these servers as SIGSTOP does, and let them go on at the end."""
+        for number in numbers:
+            self.pause(number)
+        try:
+            yield
+        finally:
+            for number in numbers:
+                self.resume(number)
 
     def start(self, number):
         with (self.folder / f"nats{number}.log").open("ab") as log:

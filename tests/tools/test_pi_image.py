@@ -135,9 +135,3 @@ def test_a_file_that_is_no_image_is_refused(image, monkeypatch, change, code):
     assert [each.code for each in errors] == [code]
     assert str(image) in str(errors[0])
     assert image.read_bytes() == before
-
-
-def test_no_console_is_left_on_the_uart(image):
-    assert prepared(image) == 0
-    words = read(image, "cmdline.txt").decode().split()
-    assert [each for each in words if each.startswith("console=")] == ["console=tty1"]

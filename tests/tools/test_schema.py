@@ -43,7 +43,7 @@ from up.commands.board_schema import STATUS
 from up.commands.board_status import telemetry_of
 from up.commands.telemetry_schema import PROPERTIES
 from up.protocols.general_message import GeneralMessage
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import LinkSnapshot

@@ -1,4 +1,4 @@
-"""A periodic module goes on after a fault, and logs each kind of fault once."""
+"""A periodic module continues after a fault, and logs each kind of fault once."""
 
 from types import SimpleNamespace
 

@@ -3,7 +3,7 @@
 import json
 import math
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from up.protocols.general_message import encode
@@ -93,7 +93,6 @@ ANYTHING = st.recursive(
 CONTENTS = st.dictionaries(st.sampled_from("abc"), ANYTHING)
 
 
-@settings(max_examples=300, deadline=None)
 @given(st.lists(CONTENTS, max_size=4))
 def test_any_contents_make_json(contents):
     result, _ = merged(*contents)
@@ -102,7 +101,6 @@ def test_any_contents_make_json(contents):
     assert json.loads(text) == result
 
 
-@settings(max_examples=200, deadline=None)
 @given(CONTENTS, CONTENTS)
 def test_the_first_module_keeps_what_it_said(first, second):
     alone, _ = merged(first)

@@ -23,13 +23,15 @@ def start(module: str, *arguments: Any) -> int:
     from up.cli.option_parser import EXIT_INTERRUPTED, EXIT_USAGE
     from up.errors import UserError
     from up.output import check_format, print_problems
+    from up.system.gc_scheduler import frozen_imports
 
     try:
         check_format()
     except UserError as error:
         print_problems(error.problems)
         return EXIT_USAGE
-    main = import_module(module).main
+    with frozen_imports():
+        main = import_module(module).main
     signal.signal(signal.SIGINT, before)
     try:
         status: int = main(*arguments)

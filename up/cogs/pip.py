@@ -8,6 +8,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,10 +21,12 @@ from up.cogs.source_tree import (
     neighbours,
     normal_name,
 )
-from up.output import Echo
+from up.fields import printable
+from up.output import Echo, StatusLine
 
 FRAMEWORK = "raspilot"
 _SHOWN_LINES = 12
+_SHOWN_COLUMNS = 70
 
 
 def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], echo: Echo) -> None:
@@ -57,10 +60,15 @@ def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], echo: Ec
 
 
 def run_pip(command: Sequence[str], echo: Echo) -> None:
-    """Run a pip command; raises CogError with its last lines and one sentence."""
+    """Run pip; raises CogError with its last lines and one sentence.
+
+    A terminal shows pip's newest line: on a Raspberry Pi all cogs take minutes.
+    """
+    last: deque[str] = deque(maxlen=_SHOWN_LINES)
+    progress = StatusLine()
     environ = {**os.environ, "PIP_NO_COLOR": "1", "GIT_TERMINAL_PROMPT": "0"}
     try:
-        done = subprocess.run(
+        with subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -68,15 +76,19 @@ def run_pip(command: Sequence[str], echo: Echo) -> None:
             text=True,
             errors="replace",
             env=environ,
-            check=False,
-        )
+        ) as process:
+            for line in process.stdout or ():
+                last.append(line.rstrip())
+                progress.show(f"  pip: {printable(line.strip())[:_SHOWN_COLUMNS]}")
     except OSError as error:
         raise CogError(f"pip cannot be run: {error}", code="pip_failed") from error
-    if done.returncode != 0:
-        for line in done.stdout.rstrip().splitlines()[-_SHOWN_LINES:]:
+    finally:
+        progress.clear()
+    if process.returncode != 0:
+        for line in last:
             echo(f"  pip: {line}", "pip_output", line=line)
-        text = f"pip could not install the missing cogs (exit status {done.returncode})"
-        raise CogError(text, "pip_failed", status=done.returncode)
+        text = f"pip could not install the missing cogs (exit status {process.returncode})"
+        raise CogError(text, "pip_failed", status=process.returncode)
 
 
 def check_environment() -> None:

@@ -16,6 +16,7 @@ STATUS = Struct('>BBBBBBHHHHHHHHB')
 OLDEST_SIZE = 20
 FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'R': 'RETURN', 'u': 'OUTPUT', 'h': 'RTH'}
 MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'RETURN': 'the Raspberry Pi sets the attitude in receiver failsafe', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
+PI_MODES = ('SETPOINT', 'RETURN', 'OUTPUT')
 SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
 SWITCH_POSITIONS = {0: 'low', 1: 'middle', 2: 'high'}
 VETOES = ('the throttle is not low', 'the receiver is invalid', 'the IMU is invalid', 'AUX2 is low', 'the Raspberry Pi vetoes', 'calibrating', 'the profile is invalid', 'a veto that this program does not know')

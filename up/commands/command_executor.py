@@ -240,7 +240,8 @@ class CommandExecutor:
         DeferredList(outcomes, consumeErrors=True).addCallback(_settle, done)
 
     def _postpone(self, command: BaseCommand, origin: Origin) -> None:
-        origin = _publisher(command, origin)
+        if origin is INTERNAL:
+            origin = _publisher(command, origin)
         if threading.get_ident() == self._thread:
             self._waiting.append((command, origin, None))
         else:

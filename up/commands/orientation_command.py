@@ -7,8 +7,10 @@ from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.quick_init import quick_init
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class OrientationCommand(BaseCommand):
     """An attitude and, where the source knows them, the rotation rates.
@@ -35,7 +37,7 @@ class OrientationCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class AccelerationCommand(BaseCommand):
-    """How fast the speed along the nose changes: what is felt without gravity, level."""
+    """Change of the speed along the nose: the specific force without gravity, level."""
 
     NAME: ClassVar[str] = "up.acceleration.update"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})

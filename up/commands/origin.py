@@ -28,5 +28,5 @@ _NAME = re.compile(r"[a-z][a-z0-9_]*", re.ASCII)
 
 
 def link_name_problem(name: str) -> str:
-    """Return what is wrong with a link's name from a configuration; empty: nothing."""
+    """Return the error in a link's name from a configuration; empty: none."""
     return "" if _NAME.fullmatch(name) else f"{name!r} must be letters from a to z, digits and _"

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
+from up.quick_init import quick_init
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class OutputCommand(BaseCommand):
     """Four servo positions in microseconds, and the orientation frame they were computed from.
@@ -24,6 +26,7 @@ class OutputCommand(BaseCommand):
     sequence: int = value(minimum=0, maximum=65535)
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class SetpointCommand(BaseCommand):
     """An attitude asked of the board; after ``lifetime_ms`` it levels the aircraft.

@@ -6,8 +6,10 @@ aliases, tags and deep nesting, so that a file can neither expand on reading nor
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import yaml
 
@@ -15,6 +17,13 @@ from up.fields import printable, show
 
 MAX_DEPTH = 20
 MAX_NODES = 50_000
+# libyaml needs a twentieth of the time: seconds of a start on a Raspberry Pi Zero. Some builds of
+# PyYAML are without it.
+_LIBYAML: Any = getattr(yaml, "CSafeLoader", None)
+_ONLY_PYYAML = re.compile(
+    r"[\t\x85\u2028\u2029]|---|[|>][-+0-9]*#|:\s*[,}\]]|^(?!\s*#).*\?", re.MULTILINE
+)
+"""Texts that libyaml may accept where PyYAML does not, or places elsewhere."""
 
 
 class Report(Protocol):
@@ -69,6 +78,13 @@ def compose(text: str, report: Report) -> Node | None:
 
     Errors are reported as problems; no text makes it raise.
     """
+    if _LIBYAML is not None and not _ONLY_PYYAML.search(text):
+        problems: list[object] = []
+        builder = _Builder(lambda *problem: problems.append(problem))
+        with suppress(yaml.YAMLError, ValueError, OverflowError):
+            if all(map(builder.process, yaml.parse(text, Loader=_LIBYAML))) and not problems:
+                return builder.root
+    # The same problems everywhere, in PyYAML's words.
     builder = _Builder(report)
     try:
         for event in yaml.parse(text, Loader=yaml.SafeLoader):
@@ -167,7 +183,7 @@ class _Builder:
             self._refuse(f"tags ({tag}) are not allowed, write the plain value")
         node: Node
         if isinstance(event, yaml.ScalarEvent):
-            node = ScalarNode(self.line, self.column, event.value, event.style is None)
+            node = ScalarNode(self.line, self.column, event.value, not event.style)
         elif isinstance(event, yaml.MappingStartEvent):
             node = MapNode(self.line, self.column)
         else:

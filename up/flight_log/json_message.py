@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from collections.abc import Iterable, Sequence
 from typing import Any, NoReturn
 
 MAX_DEPTH = 32
 _INFINITY = math.inf
 _TOO_LARGE = "a number that is too large"
-_MAY_BE_TOO_LARGE = re.compile(r"[0-9][eE]\+?[0-9]|[0-9]{300}")
+_DIGITS_AS_0 = bytes.maketrans(b"123456789E", b"000000000e")
+_LONG = b"0" * 300
 
 
 def decode(data: bytes) -> dict[str, Any]:
@@ -30,8 +30,10 @@ def decode(data: bytes) -> dict[str, Any]:
         raise ValueError("not JSON") from None
     if not isinstance(fields, dict):
         raise ValueError("not a JSON object")
-    if text.count("{") + text.count("[") > MAX_DEPTH or _MAY_BE_TOO_LARGE.search(text):
-        _reject_nested(fields, MAX_DEPTH)
+    if text.count("{") + text.count("[") > MAX_DEPTH:
+        _reject_deep(fields)
+    if _may_be_too_large(data):
+        _reject_too_large(fields)
     if "\\u" in text:
         _reject_surrogates(fields)
     return fields
@@ -51,16 +53,10 @@ def decode_all(messages: Sequence[bytes]) -> list[dict[str, Any] | ValueError]:
             found = _DECODER.decode(f"[{str(joined, 'utf-8')}]")
         except (ValueError, RecursionError):
             found = []
-        if len(found) == len(messages) and all(map(_is_finite, found)):
+        is_all_there = len(found) == len(messages) and {*map(type, found)} == {dict}
+        if is_all_there and not _may_be_too_large(joined):
             return found  # type: ignore[no-any-return]
     return [_decoded(each) for each in messages]
-
-
-def _is_finite(fields: Any) -> bool:
-    if type(fields) is not dict:
-        return False
-    values = fields.values()
-    return not (_INFINITY in values or -_INFINITY in values)
 
 
 def _decoded(message: bytes) -> dict[str, Any] | ValueError:
@@ -96,15 +92,34 @@ def number_at(data: Any, path: Iterable[str]) -> float | None:
         return None
 
 
-def _reject_nested(value: Any, left: int) -> None:
-    if left == 0:
-        raise ValueError(f"nested deeper than {MAX_DEPTH}")
+def _may_be_too_large(data: bytes) -> bool:
+    """Return whether the text may contain a number beyond a float's range."""
+    # Ten times as fast as a regular expression.
+    numbers = data.translate(_DIGITS_AS_0)
+    return b"0e0" in numbers or b"0e+0" in numbers or _LONG in numbers
+
+
+def _reject_too_large(value: Any) -> None:
     items = value.values() if isinstance(value, dict) else value
     if _INFINITY in items or -_INFINITY in items:
         raise ValueError(_TOO_LARGE)
     for each in items:
         if type(each) in (dict, list):
-            _reject_nested(each, left - 1)
+            _reject_too_large(each)
+
+
+def _reject_deep(fields: dict[str, Any]) -> None:
+    level: list[Any] = [fields]
+    for _ in range(MAX_DEPTH):
+        level = [
+            each
+            for group in level
+            for each in (group.values() if type(group) is dict else group)
+            if type(each) is dict or type(each) is list
+        ]
+        if not level:
+            return
+    raise ValueError(f"nested deeper than {MAX_DEPTH}")
 
 
 def _reject_surrogates(fields: dict[str, Any]) -> None:

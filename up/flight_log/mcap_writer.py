@@ -1,4 +1,4 @@
-"""Writes MCAP: whole records, one write each, so that a file may end anywhere."""
+"""Writes MCAP: whole records or chunks, one write each, so that a file may end anywhere."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 from zlib import crc32
 
+from up.flight_log.compression import ZSTD, Compress
 from up.flight_log.mcap_format import (
     ATTACHMENT,
     ATTACHMENT_INDEX,
     CHANNEL,
+    CHUNK,
     COUNT,
     FOOTER,
     JSON,
@@ -38,20 +40,30 @@ _CONTENT = MESSAGE.size
 
 
 class McapWriter:
-    """Writes the records of one file, unchunked: everything written is readable at any time.
+    """Writes the records of one file: everything written is readable at any time.
 
     ``write`` takes the bytes of a whole record (`start` and `finish`: of several) and keeps all or
     raises; its exception passes through, and the record does not count. ``size`` is the length of
-    the whole records: after truncating a torn file to it, writing may continue. Times are
-    nanoseconds since 1970. Topics are JSON with a JSON Schema. Source: https://mcap.dev/spec.
+    the whole records: after truncating a torn file to it, writing may continue. With ``compress``
+    (zstd) messages wait until `end_chunk` or `finish` writes them together; schemas and channels
+    stay outside, so that a damaged chunk costs its own messages only. Times are nanoseconds since
+    1970. Topics are JSON with a JSON Schema. Source: https://mcap.dev/spec.
     """
 
     def __init__(
-        self, write: Callable[[bytes], object], profile: str = "", library: str = LIBRARY
+        self,
+        write: Callable[[bytes], object],
+        profile: str = "",
+        library: str = LIBRARY,
+        compress: Compress | None = None,
     ) -> None:
         self.size = 0
         self.messages = 0
         self._write = write
+        self._compress = compress
+        self._chunk: list[bytes] = []
+        self._chunk_times_ns: list[int] = []
+        self._chunks = 0
         self._header = _text(profile) + _text(library)
         self._crc = 0
         self._first_ns = 0
@@ -114,9 +126,13 @@ class McapWriter:
                 f"cannot write a message: channel {channel_id} is unknown or {log_time_ns} ns is"
                 " out of range"
             ) from None
-        self._write(record)
-        self.size += len(record)
-        self._crc = crc32(record, self._crc)
+        if self._compress is None:
+            self._write(record)
+            self.size += len(record)
+            self._crc = crc32(record, self._crc)
+        else:
+            self._chunk.append(record)
+            self._chunk_times_ns.append(log_time_ns)
         self._counts[channel_id] = count + 1
         if not self.messages:
             self._first_ns = self._last_ns = log_time_ns
@@ -125,6 +141,19 @@ class McapWriter:
         elif log_time_ns < self._first_ns:
             self._first_ns = log_time_ns
         self.messages += 1
+
+    def end_chunk(self) -> int:
+        """Write what waits as one compressed chunk; return the number of its messages."""
+        if self._compress is None or not self._chunk:
+            return 0
+        records, times_ns = b"".join(self._chunk), self._chunk_times_ns
+        self._chunk, self._chunk_times_ns = [], []
+        head = CHUNK.pack(min(times_ns), max(times_ns), len(records), crc32(records))
+        packed = self._compress(records)
+        content = head + _text(ZSTD) + U64.pack(len(packed)) + packed
+        self._put(_record(Opcode.CHUNK, content))
+        self._chunks += 1
+        return len(times_ns)
 
     def add_metadata(self, name: str, values: Mapping[str, str]) -> None:
         """Write a record of texts by name."""
@@ -146,6 +175,7 @@ class McapWriter:
 
     def finish(self) -> None:
         """Write the end of the data, the summary with statistics, the footer and the magic."""
+        self.end_chunk()
         end = _record(Opcode.DATA_END, U32.pack(self._crc))
         start = self.size + len(end)
         summary, offsets = bytearray(), bytearray()
@@ -169,7 +199,7 @@ class McapWriter:
         schemas, channels = len(self._schemas), len(self._channels)
         attachments, metadata = len(self._attachments), len(self._metadata)
         head = STATISTICS.pack(
-            *(self.messages, schemas, channels, attachments, metadata, 0),
+            *(self.messages, schemas, channels, attachments, metadata, self._chunks),
             *(self._first_ns, self._last_ns),
         )
         counts = b"".join(COUNT.pack(*each) for each in self._counts.items())

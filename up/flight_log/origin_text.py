@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from up.commands.origin import INTERNAL, Origin
 
 KEY = "_origin"
@@ -21,8 +23,11 @@ def origin_text(origin: Origin) -> str:
 
 def link_and_role(text: object) -> tuple[str, str]:
     """Return the link and role in `origin_text`'s result; two empty texts for anything else."""
-    if not isinstance(text, str):
-        return "", ""
+    return _link_and_role(text) if isinstance(text, str) else ("", "")
+
+
+@lru_cache(maxsize=64)
+def _link_and_role(text: str) -> tuple[str, str]:
     if text == INTERNAL.link:
         return text, INTERNAL.role.value
     link, _, role = text.partition(" (")

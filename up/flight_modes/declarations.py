@@ -18,7 +18,7 @@ BOARD_MODES = ("FBW", "RATE", "ACRO")
 
 
 def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str, str]]:
-    """Return the modes by name, and by path what is wrong with others or with a fallback."""
+    """Return the modes by name, and by path the errors in others or in a fallback."""
     found: dict[str, FlightMode] = {}
     problems: dict[str, str] = {}
     for mode in modes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from up.flight_modes.navigation_state import Point
+from up.quick_init import quick_init
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,7 @@ class Bank:
     roll_deg: float
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class PathDemand:
     """A path, an altitude and an airspeed: the path controller turns them into an attitude.
@@ -55,6 +57,7 @@ class PathDemand:
     bank_limit_deg: float | None = None
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class AttitudeDemand:
     """An attitude to hold (deg, right wing down and nose up positive).

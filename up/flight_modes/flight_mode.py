@@ -11,6 +11,7 @@ from up.commands.orientation_command import OrientationCommand
 from up.commands.rx_command import RXCommand
 from up.flight_modes.demand import Demand
 from up.flight_modes.navigation_state import NavigationState, Point
+from up.quick_init import quick_init
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,7 @@ class Target:
     radius_m: float | None = None
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class FlightSituation:
     """What a mode sees in one step.
@@ -103,5 +105,5 @@ class FlightMode(BaseModule):
         """Called before the first step: discard what belongs to an earlier part of the flight."""
 
     def step(self, situation: FlightSituation, dt_s: float) -> Demand:
-        """Return what is demanded now; called for every orientation frame, within 2 ms."""
+        """Return the present demand; called for every orientation frame, within 2 ms."""
         raise NotImplementedError

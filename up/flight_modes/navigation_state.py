@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from up.earth import MEAN_RADIUS_M
+from up.quick_init import quick_init
 
 
 class Point(NamedTuple):
@@ -39,6 +40,7 @@ class LocalFrame:
         return latitude, (longitude + 180.0) % 360.0 - 180.0
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class NavigationState:
     """Position, velocity, wind and attitude now, each with its standard deviation (``_sd``).

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import fields, is_dataclass
 from functools import cache
+from operator import attrgetter
 from typing import Any, TypeVar
 
 from twisted.logger import Logger
@@ -67,6 +68,12 @@ class FlightModeSelector:
         needed = self.modes[name].NEEDS
         return [each for each, max_age_s in needed.items() if not self._is_fresh(each, max_age_s)]
 
+    def _first_missing(self, name: str) -> str | None:
+        for each, max_age_s in self.modes[name].NEEDS.items():
+            if not self._is_fresh(each, max_age_s):
+                return each
+        return None
+
     def offers(self, situation: FlightSituation | None) -> dict[str, str | None]:
         """Return for each mode None if it can be entered now, else the reading or code why not."""
         return {
@@ -123,8 +130,7 @@ class FlightModeSelector:
         """
         reason: str | None = None
         for name in self._candidates:
-            missing = self.missing_for(name)
-            code = self._broken.get(name) or (missing[0] if missing else None)
+            code = self._broken.get(name) or self._first_missing(name)
             if code is None:
                 try:
                     made = self._run(self.modes[name], situation, dt_s, carry_out)
@@ -193,18 +199,21 @@ def _refusal_of(mode: FlightMode, situation: FlightSituation) -> ModeRefusal | N
 
 def _is_finite(value: Any) -> bool:
     """Return whether a demand, or a part of one, has no other values than finite ones and None."""
-    names = _fields_of(value.__class__)
-    if not names and not isinstance(value, tuple):
+    parts_of = _parts_of(value.__class__)
+    if parts_of is None and not isinstance(value, tuple):
         return False
-    for part in [getattr(value, name) for name in names] if names else value:
-        if isinstance(part, _NUMBERS):
-            if not math.isfinite(part):
-                return False
-        elif part is not None and not _is_finite(part):
+    for part in value if parts_of is None else parts_of(value):
+        if part is None:
+            continue
+        if not (math.isfinite(part) if isinstance(part, _NUMBERS) else _is_finite(part)):
             return False
     return True
 
 
 @cache
-def _fields_of(kind: type) -> tuple[str, ...]:
-    return tuple(each.name for each in fields(kind)) if is_dataclass(kind) else ()
+def _parts_of(kind: type) -> Callable[[Any], tuple[Any, ...]] | None:
+    """Return what gives all fields of a dataclass; None for another class, or without fields."""
+    names = [each.name for each in fields(kind)] if is_dataclass(kind) else []
+    if len(names) == 1:
+        return lambda value: (getattr(value, names[0]),)
+    return attrgetter(*names) if names else None

@@ -101,6 +101,8 @@ class CheckedDecoder:
         if self._tail or self._is_skipping:
             self.expire(now)
         self._newest_byte_s = now
+        if not data:
+            return []
         pieces = (self._tail + data).split(b"\0")
         tail = pieces.pop()
         if self._is_skipping and pieces:

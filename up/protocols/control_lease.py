@@ -25,6 +25,9 @@ class LeaseOwner(Protocol):
 class State(Enum):
     """The states of a lease."""
 
+    # Enum's own hash is Python code, and a relay asks thousands of leases four times a second.
+    __hash__ = object.__hash__
+
     FREE = "free"
     OWNED = "owned"
     SILENT = "silent"
@@ -35,6 +38,8 @@ class State(Enum):
 
 class Input(Enum):
     """The inputs of a lease; `TIMEOUT`: ALIVE_S after the owner's last byte."""
+
+    __hash__ = object.__hash__
 
     ACQUIRE = "acquire"
     DISCONNECT = "disconnect"

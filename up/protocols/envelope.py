@@ -119,11 +119,11 @@ class Stream:
         return payload
 
     def _protect(self, place: bytes, payload: bytes) -> bytes:
-        """Return the MAC and what follows it."""
+        """Return the MAC and the protected payload."""
         return self._mac(place, payload) + payload
 
     def _unprotect(self, place: bytes, protected: bytes) -> bytes:
-        """Return the payload of MAC and what follows it; raises EnvelopeError: forged."""
+        """Return the payload behind its MAC; raises EnvelopeError: forged."""
         payload = protected[MAC_BYTES:]
         if not is_authentic(protected[:MAC_BYTES], self._mac(place, payload)):
             raise EnvelopeError("forged")

@@ -18,9 +18,8 @@ MAX_KEYS = 512
 """Keys of one object; it bounds the work per message."""
 
 _MAX_WHOLE_NUMBER = 20
-_STRING_OR_BRACKET = re.compile(rb'"(?:[^"\\]++|\\.)*+(?:"|\\?\Z)|[\[\]{}]', re.DOTALL)
+_NO_BRACKETS = re.compile(rb'"(?:[^"\\]++|\\.)*+(?:"|\\?\Z)|[^"\[\]{}]++', re.DOTALL)
 _OPENING = b"[{"
-_CLOSING = b"]}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,14 +155,10 @@ def _id_despite_fault(text: str) -> str | None:
 
 def _is_too_deep(line: bytes) -> bool:
     depth = 0
-    for match in _STRING_OR_BRACKET.finditer(line):
-        token = match[0]
-        if token in _OPENING:
-            depth += 1
-            if depth > MAX_NESTING:
-                return True
-        elif token in _CLOSING:
-            depth -= 1
+    for bracket in _NO_BRACKETS.sub(b"", line):
+        depth += 1 if bracket in _OPENING else -1
+        if depth > MAX_NESTING:
+            return True
     return False
 
 

@@ -13,6 +13,7 @@ from up.commands.system_commands import SourceSelectedCommand
 from up.config.application import PROVIDERS
 from up.providers.source_arbiter import SourceArbiter
 from up.providers.subscription import Subscription
+from up.quick_init import quick_init
 
 _T = TypeVar("_T")
 
@@ -21,7 +22,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
     """Keeps the newest reading of one kind from the followed source.
 
     Subclasses name the ``READING`` (its key in ``age_ms`` and ``source`` of telemetry), the
-    ``COMMAND`` that updates it and ``MAX_AGE_S``, after which a source is no longer fresh; they
+    ``COMMAND`` that updates it and ``MAX_AGE_S``, after which a source is stale; they
     convert the Command to the value in ``_value_of`` and receive changes in ``_on_changed``.
     """
 
@@ -35,7 +36,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         self._reading: Reading[_T] | None = None
         self._arbiter = SourceArbiter(self.MAX_AGE_S, self._on_switch)
         self._priorities: Mapping[str, int] = {}
-        self.is_doubted: Callable[[str], bool] = lambda _source: False
+        self.is_doubted: Callable[[str], bool] | None = None
         """Whether the data of a source are left out now, so that another one is followed."""
 
     def on_init(self) -> None:
@@ -102,7 +103,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
             return
         now_s = self._seconds()
         origin = self.up.command_executor.origin
-        if self.is_doubted(origin.link):
+        if self.is_doubted is not None and self.is_doubted(origin.link):
             self._arbiter.note_left_out(origin.link, now_s)
             return
         valid = self._is_valid(command)
@@ -152,6 +153,7 @@ def require(flight_control: Any, what: str, value: float) -> None:
     flight_control.require(what, value)
 
 
+@quick_init
 @dataclass(frozen=True, slots=True)
 class Reading(Generic[_T]):
     """A value, its source, its monotonic time in seconds and whether the source marks it valid."""

@@ -31,33 +31,30 @@ class Subscription(Generic[_T]):
         max_age_s: float,
     ) -> None:
         self._provider = provider
-        self._on_changed = on_changed
         self._on_stale = on_stale
         self._max_age_s = max_age_s
         self._reactor = provider.context.reactor
         self._last: Reading[_T] | None = None
         self._is_fresh = False
         self._timer: Timer | None = None
+        fresh = provider.fresh
 
         def on_command(_command: object) -> Any:
-            return self._on_command()
+            reading = fresh(max_age_s)
+            if reading is None:
+                self._note_stale()
+            elif reading is not self._last:
+                self._last = reading
+                self._is_fresh = True
+                if on_stale is not None and self._timer is None:
+                    self._watch()
+                return on_changed(reading)
+            return None
 
         # The bus names the module whose method this is.
         handler = update_wrapper(on_command, on_changed)
         provider.up.command_executor.register_command(provider.COMMAND, handler)
         add_cleanup(lambda: cancel(self._timer))
-
-    def _on_command(self) -> Any:
-        reading = self._provider.fresh(self._max_age_s)
-        if reading is None:
-            self._note_stale()
-        elif reading is not self._last:
-            self._last = reading
-            self._is_fresh = True
-            if self._on_stale is not None and self._timer is None:
-                self._watch()
-            return self._on_changed(reading)
-        return None
 
     def _watch(self) -> None:
         """Look again when the newest reading will be too old."""

@@ -1,4 +1,4 @@
-"""Runs Python's garbage collector only while the program is idle.
+"""Runs Python's garbage collector only while the program is idle, and not during a start.
 
 A full collection of a program of this size takes tens of milliseconds. Objects that exist after the
 start are frozen, the automatic collector is off, and young garbage is collected once a second
@@ -8,11 +8,27 @@ between two turns of the reactor; bus and codecs create no cycles, so there is l
 from __future__ import annotations
 
 import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from up.system.clock import Clock, Timer, cancel
 
 PERIOD_S = 1.0
 FULL_COLLECTION_EVERY = 300
+
+
+@contextmanager
+def frozen_imports() -> Iterator[None]:
+    """Turn the collector off while modules are imported, and freeze them.
+
+    It finds no garbage in them, and takes a tenth of a start.
+    """
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 class GcScheduler:

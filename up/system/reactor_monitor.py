@@ -12,7 +12,7 @@ from typing import Any
 from twisted.logger import Logger, LogLevel
 
 BUDGET_S = 0.020
-"""The time budget of a call without a longer one of its own."""
+"""The time budget of a call that has no longer one."""
 
 OTHERS = "others"
 _NAMED_LIMIT = 50

@@ -13,7 +13,7 @@ from twisted.internet.task import deferLater
 from twisted.python.failure import Failure
 
 from up.errors import UserError
-from up_cluster.config import ClusterConfig
+from up_cluster.config import FleetConfig
 from up_cluster.jetstream import NOT_ENABLED, STREAM_NOT_FOUND, JetStreamError
 from up_cluster.key_value import Entry
 from up_cluster.lease import parse_record
@@ -35,7 +35,7 @@ class FleetError(UserError):
 
 
 def report_in(payload: bytes) -> dict[str, Any] | None:
-    """Return a member's report; None for what is none, as of a member of another version."""
+    """Return a member's report; None: it is malformed, or of another version."""
     try:
         report = parse(payload)
     except ValueError:
@@ -66,11 +66,10 @@ class Fleet:
     The constructor raises ClusterError, TLSError.
     """
 
-    def __init__(self, reactor: Any, config: ClusterConfig, folder: Path) -> None:
+    def __init__(self, reactor: Any, config: FleetConfig, folder: Path) -> None:
         self._reactor = reactor
         self._config = config
         self._member = Membership(reactor, config, folder, program="up-fleet")
-        self._member.makers.clear()
         self._client = self._member.client
 
     def run(self, work: Callable[[], Awaitable[Any]]) -> Any:

@@ -12,7 +12,7 @@ RETRY_S = 60.0
 
 
 class DiskErrorState:
-    """The current problem of the disk; ``problem`` is None if there is none."""
+    """The current problem of the disk; ``problem`` is None without one."""
 
     def __init__(self, log: Logger, folder: Path) -> None:
         self.problem: str | None = None

@@ -17,6 +17,7 @@ from black_box_cog.timeline import Timeline
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.flight_log.command_schema import schema_of
+from up.flight_log.compression import compressor
 from up.flight_log.flight_file import FlightFile
 from up.flight_log.foxglove import (
     LOCATION_FIX,
@@ -61,15 +62,17 @@ class _Channel:
 class LogSegment:
     """Writes one file from its head to its summary; an OSError comes from the file.
 
-    A Command that cannot be encoded is left out: ``unwritten`` counts by topic.
+    A Command that cannot be encoded is left out: ``unwritten`` counts by topic. Entries wait for
+    `flush`, which writes them as one compressed chunk; ``lost`` counts messages that did not fit.
     """
 
     def __init__(self, file: LogFile, name: FlightFile, timeline: Timeline) -> None:
         self.file = file
         self.name = name
         self.unwritten: Counter[str] = Counter()
+        self.lost = 0
         self._timeline = timeline
-        self._writer = McapWriter(file.put)
+        self._writer = McapWriter(file.put, compress=compressor())
         self._channels: dict[Any, _Channel] = {}
         self._origins = OriginTexts()
 
@@ -106,6 +109,15 @@ class LogSegment:
         self._writer.message(channel.number, time_ns, data)
         if kind is LocationCommand:
             self._writer.message(self._place().number, time_ns, _place(subject, time_ns))
+
+    def flush(self) -> None:
+        in_chunk = self._writer.end_chunk()
+        try:
+            self.file.flush()
+        except OSError:
+            # A chunk is one record of the file.
+            self.lost = in_chunk or self.file.lost
+            raise
 
     def finish(self) -> None:
         """Write the summary, with which a viewer can open the file at any position immediately."""

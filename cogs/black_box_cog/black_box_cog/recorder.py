@@ -169,7 +169,7 @@ class Recorder:
     def _write(self, segment: LogSegment, entries: list[Entry]) -> None:
         self._throttle.run(map(segment.put, entries))
         try:
-            segment.file.flush()
+            segment.flush()
         except OSError as error:
             self._fail(error)
 
@@ -249,7 +249,7 @@ class Recorder:
     def _fail(self, error: Exception) -> None:
         segment, self._segment = self._segment, None
         if segment is not None:
-            self._dropped += segment.file.lost
+            self._dropped += segment.lost
             if isinstance(error, NoRoomError):
                 # The disk is not full yet: the file ends properly.
                 self._end(segment)

@@ -49,7 +49,7 @@ class SegmentFactory:
             segment = LogSegment(file, name, self._timeline)
             self._throttle.run(segment.head(self._metadata))
             self._throttle.run(map(segment.put, entries))
-            file.flush()
+            segment.flush()
             file.sync()
             self._disk.sync_folder(name.folder)
         except OSError:

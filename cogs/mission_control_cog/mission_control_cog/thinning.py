@@ -14,7 +14,7 @@ _AGE_STEPS = 6
 """Steps of an age until its reading is stale; ten times coarser beyond twice that."""
 
 Tree = dict[str, Any]
-"""Keys of telemetry by name; what is no tree belongs to the value with all that is below."""
+"""Keys of telemetry by name; a key without a subtree names a whole value."""
 
 
 def tree_of(leaves: Mapping[str, Any]) -> Tree:
@@ -39,7 +39,7 @@ _SLOW_PATHS = (
 )  # fmt: skip
 _SLOW = tree_of(dict.fromkeys(_SLOW_PATHS))
 _COUNTED = ("age_ms", "counters", "system.clock_ms", "uplink.left_out", *_SLOW_PATHS)
-"""Without an age of their own, and different in each frame or each second."""
+"""Values that carry no age, and differ in each frame or each second."""
 _EVENTS = sorted({
     tuple(path.split(".")[:2])
     for path in (

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from twisted.application.internet import ClientService
 from twisted.internet.defer import Deferred, TimeoutError
 from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
 from twisted.internet.error import ConnectError
@@ -122,7 +121,7 @@ class Uplink:
     ) -> bool:
         """Send a frame of telemetry packed, in place of an older unsent message.
 
-        ``lines`` makes of the packed body, when it leaves, what is sent of it; ``whole_s`` and
+        ``lines`` makes of the packed body, when it leaves, the lines that carry it; ``whole_s`` and
         ``is_enough`` are those of Packer.pack.
         """
         link = self._link
@@ -206,6 +205,9 @@ class Uplink:
     def _new_service(self) -> Any:
         factory: Any = Factory.forProtocol(self._build)
         factory.noisy = False
+        # Imported here: an aircraft without a server need not wait for it.
+        from twisted.application.internet import ClientService
+
         make: Any = ClientService
         return make(self, factory, retryPolicy=self._pause_s, clock=self._reactor)
 

@@ -62,7 +62,7 @@ class OnInterface:
         try:
             handle = client.getHandle()
         except AttributeError:
-            return connector  # without a socket the attempt fails by itself
+            return connector  # without a socket the attempt fails
         try:
             handle.setsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, self._name.encode())
         except OSError as error:

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from up.cli.cli_error import CliError
 from up_flightlog.cli.open_flight import check_topics, flight_of, unknown_topic
 from up_flightlog.cli.terminal import DecodingProgress, echo, warn
-from up_flightlog.export.csv_table import columns_of, topic_rows, wide_rows
+from up_flightlog.export.csv_table import topic_lines, wide_lines
 from up_flightlog.export.gpx import gpx_lines
 from up_flightlog.export.kml import kml_lines
 from up_flightlog.export.output import make_folder, new_file
@@ -63,25 +61,25 @@ def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> N
     if values.rate or not topics:
         topics = topics or [topic for topic in log.topics if topic not in _NOT_IN_A_TABLE]
         path = values.output or Path(f"{flight.name}.csv")
-        _write(_csv(_wide(log, topics, values.rate or RATE_HZ)), path, values.force)
+        _write(_wide(log, topics, values.rate or RATE_HZ), path, values.force)
     elif len(topics) == 1:
         path = values.output or Path(f"{flight.name}.{_file_name(topics[0])}")
-        _write(_csv(_one(log, topics[0])), path, values.force)
+        _write(_one(log, topics[0]), path, values.force)
     else:
         folder = values.output or Path(flight.name)
         if folder == STDOUT:
             raise CliError("several topics need a folder: name it with -o", status=2)
         make_folder(folder)
         for topic in topics:
-            _write(_csv(_one(log, topic)), folder / _file_name(topic), values.force)
+            _write(_one(log, topic), folder / _file_name(topic), values.force)
 
 
-def _one(log: FlightLog, topic: str) -> Iterator[list[str]]:
-    paths = columns_of(log.messages(topic)).get(topic, [])
-    return topic_rows(log.messages(topic), paths, log.start_unix_s)
+def _one(log: FlightLog, topic: str) -> Iterator[str]:
+    with TemporaryFile("w+", encoding="utf-8", newline="\n") as spool:
+        yield from topic_lines(log.messages(topic), log.start_unix_s, spool)
 
 
-def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[list[str]]:
+def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[str]:
     if not topics:
         raise CliError("the log has no messages")
     if log.length_s * rate_hz > MAX_ROWS:
@@ -89,19 +87,9 @@ def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[lis
             f"a table of {log.length_s * rate_hz:.0f} rows is too long: use a lower --rate"
         )
     # A message that a newer one replaces before the next row is not decoded.
-    read = partial(log.messages, *topics, rate_hz=rate_hz)
-    columns = columns_of(read())
-    return wide_rows(read(), columns, log.start_unix_s, log.length_s, rate_hz)
-
-
-def _csv(rows: Iterable[list[str]]) -> Iterator[str]:
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    for row in rows:
-        writer.writerow(row)
-        yield text.getvalue()
-        text.seek(0)
-        text.truncate()
+    messages = log.messages(*topics, rate_hz=rate_hz)
+    with TemporaryFile("w+", encoding="utf-8", newline="\n") as spool:
+        yield from wide_lines(messages, log.start_unix_s, log.length_s, rate_hz, spool)
 
 
 def _write(texts: Iterable[str], path: Path, may_overwrite: bool) -> None:

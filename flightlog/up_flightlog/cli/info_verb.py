@@ -73,7 +73,7 @@ def _section(title: str, lines: Sequence[str]) -> None:
 
 def _title(flight: Flight, log: FlightLog, summary: FlightSummary) -> str:
     number = "" if flight.number is None else f"flight {flight.number}, "
-    cut = "" if summary.is_complete else ", cut off"
+    cut = "" if summary.is_complete else ", being recorded" if log.is_recording else ", cut off"
     text = (
         f"{number}{summary.aircraft or flight.aircraft or 'unnamed aircraft'},"
         f" {start_text(log.start_unix_s)}, {duration_text(summary.length_s)},"

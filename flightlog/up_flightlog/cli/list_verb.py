@@ -17,11 +17,11 @@ from up_flightlog.cli.overview import (
     Overview,
     OverviewCache,
     cache_path,
-    is_being_recorded,
     overview_of,
 )
 from up_flightlog.cli.terminal import Progress, echo, table, warn
 from up_flightlog.read.flights import Flight, demo_hint, flights_in
+from up_flightlog.read.log_files import is_being_recorded
 from up_flightlog.read.spans import duration_text
 from up_flightlog.report.formatting import is_clock_right, size_text, start_text
 

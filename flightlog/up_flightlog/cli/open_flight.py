@@ -21,7 +21,7 @@ from up_flightlog.read.log_summary import summary_topics
 FOLDER_FILES = "up.flights_folder"
 """The group of entry points by which a recorder names its configuration file, with ``folder``."""
 MAX_LISTED = 10
-_LARGE = 20_000_000
+_LARGE = 5_000_000
 
 
 def flights_folder(values: argparse.Namespace) -> Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import fcntl
 import json
 import os
 from collections.abc import Mapping
@@ -14,7 +13,6 @@ from typing import Any
 from up.config.atomic_writer import write_atomically
 from up.flight_log.mcap_format import FlightLogError
 from up_flightlog.findings.flight_context import FlightContext
-from up_flightlog.findings.summary import altitudes_m
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import Flight
 
@@ -55,20 +53,8 @@ def overview_of(flight: Flight) -> Overview:
         return Overview(aircraft=flight.aircraft, fault=str(error))
 
 
-def is_being_recorded(path: Path) -> bool:
-    """Return whether the black box still writes the file: it holds a lock on it."""
-    try:
-        with path.open("rb") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
-    except OSError:
-        return False
-    return False
-
-
 def _highest_m(log: FlightLog) -> float | None:
-    heights_m = list(altitudes_m(log))
+    heights_m = list(FlightContext(log).altitude.values)
     for topic in _ALTITUDES_OTHERWISE:
         if not heights_m and topic in log.topics:
             heights_m = log.series(topic, "altitude")[1]

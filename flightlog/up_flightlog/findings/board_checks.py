@@ -10,12 +10,10 @@ from math import inf
 from up.commands.board_status import has_bit, reset_causes_of
 from up.commands.telemetry_schema import RULES
 from up.flight_log.json_message import number_at
-from up_flightlog.findings.finding import Detector, Finding, Level, lasting
-from up_flightlog.findings.flight_context import FlightContext
+from up_flightlog.findings.finding import Check, Finding, Level, lasting
+from up_flightlog.findings.flight_context import INPUTS, RX, FlightContext
 from up_flightlog.read.spans import Span, joined
 
-RX = "up.rx.update"
-CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 MIN_LOSS_S = 0.1
 """Shorter gaps are not reported: one bad pulse is not a loss."""
 LATE_US = 1000
@@ -45,9 +43,9 @@ def receiver_lost(context: FlightContext) -> Iterator[Finding]:
             continue
         within = bad[bisect_left(bad, (span.begin_s,)) : bisect_left(bad, (span.end_s,))]
         lost_channels = [
-            name for bit, name in enumerate(CHANNELS) if any(not v >> bit & 1 for _, v in within)
+            name for bit, name in enumerate(INPUTS) if any(not v >> bit & 1 for _, v in within)
         ]
-        if 0 < len(lost_channels) < len(CHANNELS):
+        if 0 < len(lost_channels) < len(INPUTS):
             names = ", ".join(lost_channels)
             text = f"no valid pulses of {names}"
             yield lasting(span, _level(context, span), "channels_lost", text, subject=names)
@@ -56,12 +54,15 @@ def receiver_lost(context: FlightContext) -> Iterator[Finding]:
 
 
 def _validity(context: FlightContext, bad: list[tuple[float, int]]) -> Iterator[tuple[float, bool]]:
-    for each in context.log.messages(RX):
-        valid = each.data.get("valid")
-        if type(valid) is int and 0 <= valid <= _ALL_VALID:
-            if valid != _ALL_VALID:
-                bad.append((each.time_s, valid))
-            yield each.time_s, valid == _ALL_VALID
+    valid, before = context.sticks["valid"], -1.0
+    for time_s, bits in zip(valid.times_s, valid.values, strict=True):
+        if not (0 <= bits <= _ALL_VALID and bits.is_integer()):
+            continue
+        if bits != _ALL_VALID:
+            bad.append((time_s, int(bits)))
+        if bits != before:
+            before = bits
+            yield time_s, bits == _ALL_VALID
 
 
 def failsafe(context: FlightContext) -> Iterator[Finding]:
@@ -81,7 +82,7 @@ def alarms(context: FlightContext) -> Iterator[Finding]:
 def board_reset(context: FlightContext) -> Iterator[Finding]:
     """A restart of the board: its uptime went back, or its status reports a restart in flight."""
     before: float | None = None
-    for each in context.statuses():
+    for each in context.statuses:
         uptime_s = number_at(each.data, ("uptime_s",))
         restored = has_bit(each.data, "reset_cause", _RESTORED)
         if uptime_s is None:
@@ -110,7 +111,7 @@ def board_silent(context: FlightContext) -> Iterator[Finding]:
 
 def loop_late(context: FlightContext) -> Iterator[Finding]:
     """The control loop on the board ran late."""
-    late = [(each.time_s, number_at(each.data, ("late_us",)) or 0.0) for each in context.statuses()]
+    late = [(each.time_s, number_at(each.data, ("late_us",)) or 0.0) for each in context.statuses]
     spans = context.spans((time_s, late_us >= LATE_US) for time_s, late_us in late)
     for span in joined(spans, 1.0):
         within = late[bisect_left(late, (span.begin_s,)) : bisect_right(late, (span.end_s, inf))]
@@ -128,7 +129,7 @@ def frames_damaged(context: FlightContext) -> Iterator[Finding]:
     """Frames that the board dropped: the line between it and the Raspberry Pi is bad."""
     count, first_s = 0, 0.0
     before: float | None = None
-    for each in context.statuses():
+    for each in context.statuses:
         errors = number_at(each.data, ("frame_errors",))
         if errors is None:
             continue
@@ -165,7 +166,7 @@ def estimate_wrong(context: FlightContext) -> Iterator[Finding]:
             )
 
 
-BOARD_CHECKS: tuple[Detector, ...] = (
+BOARD_CHECKS: tuple[Check, ...] = (
     receiver_lost,
     failsafe,
     alarms,

@@ -44,10 +44,12 @@ def _errors_deg(estimate: Series, truth: Series) -> Series:
         truth.each_at([time_s + apart_s for time_s in estimate.times_s], 0.5)
         for apart_s in (-_APART_S, 0.0, _APART_S)
     ]
-    for time_s, value, *true in zip(estimate.times_s, estimate.values, *around, strict=True):
-        if None in true:
+    rows = zip(estimate.times_s, estimate.values, *around, strict=True)
+    for time_s, value, before, now, after in rows:
+        if before is None or now is None or after is None:
             continue
-        off = [turn(value - each) for each in true if each is not None]
-        is_between = min(off) < 0 < max(off) and max(off) - min(off) < 180
+        off = (turn(value - before), turn(value - now), turn(value - after))
+        low, high = min(off), max(off)
+        is_between = low < 0 < high and high - low < 180
         found.add(time_s, 0.0 if is_between else min(map(abs, off)))
     return found

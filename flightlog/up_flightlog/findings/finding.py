@@ -41,7 +41,7 @@ class Finding:
         return f"{self.summary}{length}{self.detail}"
 
 
-Detector = Callable[[FlightContext], Iterator[Finding]]
+Check = Callable[[FlightContext], Iterator[Finding]]
 """Searches a flight for one kind of fault; a new kind is a function and an entry in a table."""
 
 

@@ -1,16 +1,19 @@
-"""Data that several detectors of one flight need, computed once."""
+"""Data that several checks of one flight need, computed once."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
+import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import groupby
 from typing import Any
 
 from up.commands import board_status
-from up.commands.board_schema import DATA
+from up.commands.board_schema import DATA, PI_MODES
 from up.commands.schema_rows import Rule
+from up.commands.telemetry_schema import RULES
 from up.flight_log.json_message import number_at, value_at
 from up_flightlog.findings.estimate_error import (
     ORIENTATION,
@@ -19,13 +22,17 @@ from up_flightlog.findings.estimate_error import (
     estimate_errors,
 )
 from up_flightlog.read.flight_log import FlightLog, LoggedMessage
-from up_flightlog.read.series import Series, columns
+from up_flightlog.read.series import Series
 from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.spans import Span, spans_of
 
 TELEMETRY = "up.telemetry.update"
 FLIGHT_STATE = "up.flight.state"
 LINK_STATE = "up.link.state"
+SIGNALS = "simulator.signals"
+RX, ALTITUDE = "up.rx.update", "up.altitude.change"
+CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
+INPUTS = (*CHANNELS, "aux1", "aux2")
 LOG = "log"
 ANGLES = ("roll", "pitch", "yaw")
 TRUTHS = (
@@ -37,6 +44,12 @@ WARNING, ERROR = 3, 4
 _CODES = frozenset({"command_refused", "recording_resumed"})
 """Lines of level info that are read."""
 _DATA = {f"arduino.{each.name}": each for each in DATA}
+_PATHS = {
+    *(rule.path for rule in RULES if rule.finding and rule.path not in _DATA),
+    *("flight_mode", "flight_control.mode", "armed", "arduino.failsafe"),
+    *("android.competitor", "vetoes"),
+}
+"""Fields of telemetry that `FlightContext.telemetry` yields."""
 _NEAR_S = 1.0
 _ENDING_S = 2.0
 """A program that stops closes its links up to this long before the log ends."""
@@ -75,10 +88,47 @@ class FlightContext:
     def states(self) -> list[State]:
         """Return the changes of authority: from the board's status, otherwise from telemetry."""
         if FLIGHT_STATE in self.log.topics:
-            found = (_state_of(each) for each in self.log.messages(FLIGHT_STATE))
-        else:
-            found = (_state_of_telemetry(each) for each in self.log.messages(TELEMETRY))
-        return list(_changes(found))
+            return list(_changes(map(_state_of, self.log.messages(FLIGHT_STATE))))
+        failsafes = (_flag(failsafe) for _, failsafe in self.telemetry("arduino.failsafe"))
+        modes, armed = self.telemetry("flight_mode"), self.telemetry("armed")
+        return list(
+            _changes(
+                State(time_s, _text(mode), _flag(is_armed), None, is_failsafe)
+                for (time_s, mode), (_, is_armed), is_failsafe in zip(
+                    modes, armed, failsafes, strict=True
+                )
+            )
+        )
+
+    @cached_property
+    def modes(self) -> list[tuple[float, str | None]]:
+        """Return the changes of the mode that flies: the Raspberry Pi's while the board follows it.
+
+        That of a board's change is in a frame soon after it.
+        """
+        frames = [(time_s, _text(mode)) for time_s, mode in self._pi_modes()]
+        times_s = [time_s for time_s, _ in frames]
+        found: list[tuple[float, str | None]] = []
+        ends_s = [*(state.time_s for state in self.states[1:]), math.inf]
+        for state, end_s in zip(self.states, ends_s, strict=False):
+            followed: list[tuple[float, str | None]] = []
+            if state.flight_mode in PI_MODES:
+                first = bisect_left(times_s, state.time_s)
+                followed = frames[first : bisect_left(times_s, end_s)] or frames[first : first + 1]
+            near_s = state.time_s + _NEAR_S
+            named = (mode for time_s, mode in followed if mode is not None and time_s < near_s)
+            found.append((state.time_s, next(named, state.flight_mode)))
+            found += [each for each in followed[1:] if each[1] is not None]
+        return [next(same) for _, same in groupby(found, key=lambda each: each[1])]
+
+    def _pi_modes(self) -> Iterator[tuple[float, Any]]:
+        if TELEMETRY in self.log.topics:
+            yield from self.telemetry("flight_control.mode")
+            return
+        # The log of a scenario has what the ground saw.
+        keys = ("ground", "flight_control", "mode")
+        for times_s, signals in self.log.batches(SIGNALS):
+            yield from zip(times_s, (value_at(each, keys) for each in signals), strict=True)
 
     @cached_property
     def armed(self) -> list[Span]:
@@ -93,13 +143,23 @@ class FlightContext:
     @cached_property
     def attitude(self) -> dict[str, Series]:
         """Return the angles of the followed source, deg."""
-        return columns(from_selected_source(self.log, "orientation", ORIENTATION), ANGLES)
+        return from_selected_source(self.log, "orientation", ORIENTATION, ANGLES)
+
+    @cached_property
+    def altitude(self) -> Series:
+        """Return the measured altitude of the followed source, m."""
+        found = from_selected_source(self.log, "altitude", ALTITUDE, ("altitude",))
+        return found["altitude"]
+
+    @cached_property
+    def sticks(self) -> dict[str, Series]:
+        """Return the pilot's pulses, us, and ``valid``, a bit for each of them."""
+        return self.log.columns(RX, (*INPUTS, "valid"))
 
     @cached_property
     def truth(self) -> dict[str, Series]:
         """Return ground truth by its names; a real flight has none."""
-        found = self.log.messages(TRUTH)
-        return columns(((each.time_s, each.data) for each in found), TRUTHS)
+        return self.log.columns(TRUTH, TRUTHS)
 
     @cached_property
     def estimate_errors(self) -> list[EstimateError]:
@@ -148,16 +208,33 @@ class FlightContext:
     def _values(self, rule: Rule) -> Iterator[tuple[float, Any]]:
         """Yield the values of a rule's field; the Arduino's are read from its status."""
         if rule.path in _DATA:
-            for each in self.statuses():
+            for each in self.statuses:
                 yield each.time_s, board_status.value_of(each.data, _DATA[rule.path])
             return
-        path = rule.path.split(".")
-        for each in self.log.messages(TELEMETRY):
-            value = _flag(value_at(each.data, path))
-            yield each.time_s, value if rule.type == "flag" else number_at(each.data, path)
+        for time_s, value in self.telemetry(rule.path):
+            yield time_s, _flag(value) if rule.type == "flag" else number_at(value, ())
 
-    def statuses(self) -> Iterator[LoggedMessage]:
-        return self.log.messages(board_status.TOPIC)
+    @cached_property
+    def statuses(self) -> list[LoggedMessage]:
+        """Return the board's status, which most checks read: a few messages a second."""
+        return list(self.log.messages(board_status.TOPIC))
+
+    def telemetry(self, path: str) -> Iterator[tuple[float, Any]]:
+        """Yield the times and values of a field of ``_PATHS`` in logged frames; None: unknown."""
+        times_s, columns = self._telemetry
+        return zip(times_s, columns[path], strict=True)
+
+    @cached_property
+    def _telemetry(self) -> tuple[list[float], dict[str, list[Any]]]:
+        # Frames are large: they are decoded once, and only these values are kept.
+        times_s: list[float] = []
+        columns: dict[str, list[Any]] = {path: [] for path in _PATHS}
+        for some_s, frames in self.log.batches(TELEMETRY):
+            times_s += some_s
+            for path, values in columns.items():
+                keys = path.split(".")
+                values += [value_at(each, keys) for each in frames]
+        return times_s, columns
 
     def link_lost(self, is_it: Callable[[str], bool]) -> list[Span]:
         """Return the spans in which a link was down; the program's own end is excluded."""
@@ -215,18 +292,6 @@ def _state_of(message: LoggedMessage) -> State:
         _flag(data.get("armed")),
         _flag(data.get("auto")),
         _flag(data.get("failsafe")),
-    )
-
-
-def _state_of_telemetry(message: LoggedMessage) -> State:
-    data, board = message.data, message.data.get("arduino")
-    failsafe = board.get("failsafe") if isinstance(board, dict) else None
-    return State(
-        message.time_s,
-        _text(data.get("flight_mode")),
-        _flag(data.get("armed")),
-        None,
-        _flag(failsafe),
     )
 
 

@@ -7,8 +7,8 @@ from itertools import pairwise
 from statistics import median
 
 from up.flight_log.json_message import number_at
-from up_flightlog.findings.finding import Detector, Finding, Level, lasting
-from up_flightlog.findings.flight_context import TELEMETRY, FlightContext
+from up_flightlog.findings.finding import Check, Finding, Level, lasting
+from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.read.spans import Span
 
 GROUND_LINKS = ("mission_control", "ground")
@@ -40,10 +40,8 @@ def phone_lost(context: FlightContext) -> Iterator[Finding]:
 def phone_refused(context: FlightContext) -> Iterator[Finding]:
     """Another phone that tried to take the link, from telemetry's `android.competitor`."""
     hosts: dict[float, str] = {}
-    for each in context.log.messages(TELEMETRY):
-        android = each.data.get("android")
-        host = android.get("competitor") if isinstance(android, dict) else None
-        hosts[each.time_s] = host if isinstance(host, str) else ""
+    for time_s, host in context.telemetry("android.competitor"):
+        hosts[time_s] = host if isinstance(host, str) else ""
     for span in context.spans((time_s, host != "") for time_s, host in hosts.items()):
         host = hosts[span.begin_s]
         text = "another phone was refused"
@@ -84,7 +82,7 @@ def _interval_s(context: FlightContext, topic: str) -> float:
     return median(b - a for a, b in pairwise(times_s)) if times_s[1:] else 0.0
 
 
-LINK_CHECKS: tuple[Detector, ...] = (
+LINK_CHECKS: tuple[Check, ...] = (
     ground_lost,
     phone_lost,
     phone_refused,

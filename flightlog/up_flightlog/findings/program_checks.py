@@ -8,7 +8,7 @@ from typing import Any
 from up.flight_log.gain_changes import changes_text
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY
-from up_flightlog.findings.finding import Detector, Finding, Level, lasting
+from up_flightlog.findings.finding import Check, Finding, Level, lasting
 from up_flightlog.findings.flight_context import ERROR, FlightContext
 from up_flightlog.read.spans import Span
 
@@ -30,7 +30,7 @@ _RECORDER: dict[str, tuple[Level, str]] = {
 }
 """The recorder's log lines by code: the level of the finding, and its text from the fields."""
 _REPORTED = frozenset({*_RECORDER, _BLOCKED, "battery_low"})
-"""Log lines that other detectors report."""
+"""Log lines that other checks report."""
 
 
 def event_loop_blocked(context: FlightContext) -> Iterator[Finding]:
@@ -172,7 +172,7 @@ def recording(context: FlightContext) -> Iterator[Finding]:
 
 
 def errors(context: FlightContext) -> Iterator[Finding]:
-    """The errors of the program's log that no other detector reports; each text once."""
+    """The errors of the program's log that no other check reports; each text once."""
     seen: dict[str, list[Any]] = {}
     for line in context.log_lines:
         if line.level >= ERROR and line.code not in _REPORTED:
@@ -212,7 +212,7 @@ def _times(count: float) -> str:
     return "once" if count == 1 else f"{count:.0f} times"
 
 
-PROGRAM_CHECKS: tuple[Detector, ...] = (
+PROGRAM_CHECKS: tuple[Check, ...] = (
     event_loop_blocked,
     panic,
     gains_changed,

@@ -7,12 +7,18 @@ from dataclasses import dataclass
 
 from up.commands import board_status
 from up.flight_log.json_message import number_at
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 from up_flightlog.findings.estimate_error import EstimateError
 from up_flightlog.findings.finding import Finding
-from up_flightlog.findings.flight_context import ERROR, TELEMETRY, WARNING, FlightContext
+from up_flightlog.findings.flight_context import (
+    ALTITUDE,
+    ERROR,
+    RX,
+    TELEMETRY,
+    WARNING,
+    FlightContext,
+)
 from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.spans import Span
 from up_flightlog.read.track_statistics import track_statistics
 
@@ -20,16 +26,15 @@ __all__ = ["Finding", "FlightSummary", "Mark", "ModeSpan", "findings", "summaris
 
 SOURCES: dict[str, str] = {
     "orientation": "up.orientation.update",
-    "rx": "up.rx.update",
+    "rx": RX,
     "servo": "up.servo.update",
     "location": "up.location.update",
-    "altitude": "up.altitude.change",
+    "altitude": ALTITUDE,
     "heading": "up.heading.change",
     "battery": "android.battery",
     "telemetry": TELEMETRY,
 }
 """Readings whose longest gap is reported, by their names in telemetry."""
-ALTITUDE = "up.altitude.change"
 BATTERY = "android.battery"
 MARK = "black_box.mark"
 _MAX_VETOES = 100
@@ -96,12 +101,13 @@ def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSum
     context = context or FlightContext(log)
     flight = log.metadata.get("flight", {})
     track = track_statistics(log)
-    heights_m = list(altitudes_m(log)) or [
+    heights_m = list(context.altitude.values) or [
         each for each in (track.lowest_m, track.highest_m) if each is not None
     ]
     levels = [line.level for line in context.log_lines]
     # 0: unknown.
-    voltages_v = [mv / 1000 for mv in log.series(board_status.TOPIC, "battery_mv")[1] if mv]
+    batteries_mv = (number_at(each.data, ("battery_mv",)) for each in context.statuses)
+    voltages_v = [mv / 1000 for mv in batteries_mv if mv]
     return FlightSummary(
         start_unix_s=log.start_unix_s,
         length_s=log.length_s,
@@ -131,29 +137,16 @@ def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSum
 
 
 def _modes(context: FlightContext) -> Iterator[ModeSpan]:
-    mode, begin_s = None, 0.0
-    for state in context.states:
-        if state.flight_mode == mode:
-            continue
+    ends_s = [*(time_s for time_s, _ in context.modes[1:]), context.log.length_s]
+    for (begin_s, mode), end_s in zip(context.modes, ends_s, strict=False):
         if mode is not None:
-            yield ModeSpan(mode, begin_s, state.time_s)
-        mode, begin_s = state.flight_mode, state.time_s
-    if mode is not None:
-        yield ModeSpan(mode, begin_s, context.log.length_s)
-
-
-def altitudes_m(log: FlightLog) -> Iterator[float]:
-    """Yield the measured altitudes (m) of the followed source."""
-    for _, data in from_selected_source(log, "altitude", ALTITUDE):
-        altitude_m = number_at(data, ("altitude",))
-        if altitude_m is not None:
-            yield altitude_m
+            yield ModeSpan(mode, begin_s, end_s)
 
 
 def _gaps_s(log: FlightLog) -> Iterator[tuple[str, float]]:
     for name, topic in SOURCES.items():
         if log.topics.get(topic):
-            yield name, max((length_s for _, length_s in log.gaps(0.0, topic)), default=0.0)
+            yield name, log.longest_gap_s(topic)
 
 
 def _vetoes(context: FlightContext) -> list[str]:
@@ -167,9 +160,8 @@ def _vetoes(context: FlightContext) -> list[str]:
 
 
 def _reported_vetoes(context: FlightContext) -> Iterator[str]:
-    for message in context.log.messages(TELEMETRY):
-        vetoes = message.data.get("vetoes")
+    for _, vetoes in context.telemetry("vetoes"):
         if isinstance(vetoes, list):
             yield from (each for each in vetoes if isinstance(each, str))
-    for status in context.statuses():
+    for status in context.statuses:
         yield from (f"arduino: {each}" for each in board_status.vetoes_of(status.data))

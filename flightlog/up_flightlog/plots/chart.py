@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -115,9 +114,11 @@ def broken(
     times_s: Sequence[float], values: Sequence[float], gap_s: float | None = None
 ) -> tuple[list[float], list[float]]:
     """Return the points with a break (nan) at every gap of ``gap_s``."""
-    limit_s = usual_gap_s(times_s) if gap_s is None else gap_s
-    is_unbroken = max(map(sub, times_s[1:], times_s), default=0.0) <= limit_s
-    if is_unbroken and is_drawable(sum(map(abs, values))):
+    longest_s = max(map(sub, times_s[1:], times_s), default=0.0)
+    # The usual gap, which is slow to find, is never less than GAP_S.
+    is_short = gap_s is None and longest_s <= GAP_S
+    limit_s = GAP_S if is_short else usual_gap_s(times_s) if gap_s is None else gap_s
+    if longest_s <= limit_s and is_drawable(sum(map(abs, values))):
         return list(times_s), list(values)
     found_s: list[float] = []
     found: list[float] = []
@@ -136,7 +137,7 @@ def usual_gap_s(times_s: Sequence[float]) -> float:
     """Return the time without a value after which a source is silent: from its median period."""
     if len(times_s) < 3:
         return GAP_S
-    periods = sorted(after - before for before, after in itertools.pairwise(times_s))
+    periods: list[float] = sorted(map(sub, times_s[1:], times_s))
     return max(GAP_S, _LAPSES * periods[len(periods) // 2])
 
 

@@ -53,7 +53,7 @@ DAYLIGHT = Theme(
         "RTH": "#f7e6f0",
         "failsafe": "#fae5de",
     },
-    other_band="#f3f4f6",
+    other_band="#dfecf8",
 )
 DARK = Theme(
     name="dark",
@@ -77,5 +77,5 @@ DARK = Theme(
         "RTH": "#362133",
         "failsafe": "#3a201b",
     },
-    other_band="#1c2127",
+    other_band="#172b3f",
 )

@@ -1,4 +1,4 @@
-"""The position of every message of a flight: about 22 bytes per message, whatever its size."""
+"""The position of every message of a flight: about 26 bytes per message, whatever its size."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ from array import array
 from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from itertools import compress
 
 from up_flightlog.read.timestamp_outliers import outliers
 
 MAX_TOPICS = 65535
 MAX_PARTS = 65535
+EXPANDED = 1 << 47
+"""Added to an offset in the `ExpandedRecords`, not in the part's file."""
 _PART_SHIFT = 48
 _OFFSET_MASK = (1 << _PART_SHIFT) - 1
 
@@ -18,16 +21,16 @@ _OFFSET_MASK = (1 << _PART_SHIFT) - 1
 class LogIndex:
     """Messages in the order of their time; a position is a message's number in that order.
 
-    Read ``times_ns`` and the rest only after `finish`.
+    Read ``times_ns``, ``topic_of`` (their topics' numbers) and the rest only after `finish`.
     """
 
     def __init__(self) -> None:
         self.times_ns = array("Q")
         self.topics: dict[str, int] = {}
-        self._topic_of = array("H")
+        self.topic_of = array("H")
         self._places = array("Q")
         self._sizes = array("I")
-        self._positions: dict[int, array[int]] = {}
+        self._positions: list[array[int]] = []
 
     def __len__(self) -> int:
         return len(self.times_ns)
@@ -39,16 +42,19 @@ class LogIndex:
             number = self.topics[name] = len(self.topics)
         return number
 
-    def adder(self, part: int) -> Callable[[int, int, int, int], None]:
-        """Return a function that adds (topic, time, offset, size) of a message of that part."""
-        add_topic, add_time = self._topic_of.append, self.times_ns.append
+    def adder(self, part: int, base: int = 0) -> Callable[[int, int, int, int], None]:
+        """Return a function that adds (topic, time, offset, size) of a message of that part.
+
+        ``base`` is added to each offset.
+        """
+        add_topic, add_time = self.topic_of.append, self.times_ns.append
         add_place, add_size = self._places.append, self._sizes.append
-        high = part << _PART_SHIFT
+        high = (part << _PART_SHIFT) + base
 
         def add(topic: int, time_ns: int, offset: int, size: int) -> None:
             add_topic(topic)
             add_time(time_ns)
-            add_place(high | offset)
+            add_place(high + offset)
             add_size(size)
 
         return add
@@ -70,20 +76,20 @@ class LogIndex:
         self._rearrange(sorted(range(len(times)), key=times.__getitem__))
 
     def _rearrange(self, order: Sequence[int]) -> None:
-        for each in (self.times_ns, self._topic_of, self._places, self._sizes):
+        for each in (self.times_ns, self.topic_of, self._places, self._sizes):
             each[:] = array(each.typecode, map(each.__getitem__, order))
 
     def counts(self) -> dict[str, int]:
-        counted = Counter(self._topic_of)
+        counted = Counter(self.topic_of)
         return {name: counted[number] for name, number in self.topics.items()}
 
-    def name_of(self, position: int) -> int:
-        return self._topic_of[position]
-
-    def place_of(self, position: int) -> tuple[int, int, int]:
-        """Return a message's part, the offset of its data and their size."""
-        place = self._places[position]
-        return place >> _PART_SHIFT, place & _OFFSET_MASK, self._sizes[position]
+    def places_of(self, positions: Iterable[int]) -> list[tuple[int, int, int]]:
+        """Return each message's part, the offset of its data and their size."""
+        places, sizes = self._places, self._sizes
+        return [
+            (places[each] >> _PART_SHIFT, places[each] & _OFFSET_MASK, sizes[each])
+            for each in positions
+        ]
 
     def positions(self, topics: Sequence[str], since_ns: int = 0) -> Iterable[int]:
         """Return the positions of the messages of these topics (default: all)."""
@@ -93,16 +99,18 @@ class LogIndex:
         if len(wanted) == 1:
             found = self._of_topic(*wanted)
             return found[bisect_left(found, self._first(since_ns)) :] if since_ns else found
-        topic_of = self._topic_of
-        everything = range(self._first(since_ns), len(self) if wanted else 0)
-        return (position for position in everything if topic_of[position] in wanted)
+        first = self._first(since_ns)
+        everything = range(first, len(self) if wanted else first)
+        is_wanted = [number in wanted for number in range(len(self.topics))]
+        return compress(everything, map(is_wanted.__getitem__, self.topic_of[first:]))
 
     def _of_topic(self, number: int) -> array[int]:
-        found = self._positions.get(number)
-        if found is None:
-            places = (place for place, each in enumerate(self._topic_of) if each == number)
-            found = self._positions[number] = array("I", places)
-        return found
+        if not self._positions:
+            self._positions = [array("I") for _ in self.topics]
+            adders = [each.append for each in self._positions]
+            for position, topic in enumerate(self.topic_of):
+                adders[topic](position)
+        return self._positions[number]
 
     def _first(self, since_ns: int) -> int:
         return bisect_left(self.times_ns, since_ns) if since_ns else 0

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from struct import Struct
 
 from up.fields import printable
 from up.flight_log.mcap_format import JSON, MESSAGE, FlightLogError, Opcode
-from up_flightlog.read.log_files import LogFiles
-from up_flightlog.read.log_index import LogIndex
+from up_flightlog.read.expanded_records import ExpandedRecords
+from up_flightlog.read.log_files import LogFiles, is_being_recorded
+from up_flightlog.read.log_index import EXPANDED, LogIndex
 from up_flightlog.read.mcap_records import AttachedFile, Channel, Metadata, Schema, read_record
 from up_flightlog.read.problems import LogProblem, Problems
 from up_flightlog.read.record_scanner import Found, RecordScanner, read_file
@@ -20,7 +21,7 @@ MAX_METADATA = 1000
 MAX_KEPT_BYTES = 32 * 1024 * 1024
 """Of schemas, channels and metadata together."""
 _MESSAGE_HEAD = Struct("<HIQ")
-_MESSAGE = int(Opcode.MESSAGE)
+_MESSAGE, _CHUNK = int(Opcode.MESSAGE), int(Opcode.CHUNK)
 _KEPT = frozenset({Opcode.SCHEMA, Opcode.CHANNEL, Opcode.METADATA, Opcode.ATTACHMENT})
 
 
@@ -77,6 +78,7 @@ class PartReader:
         self.path = path
         self.fault: FlightLogError | None = None
         self.is_complete = False
+        self.is_recording = False
         self.metadata: dict[str, dict[str, str]] = {}
         self.attachments: dict[str, Attachment] = {}
         self.topics: dict[str, TopicInfo] = {}
@@ -97,35 +99,64 @@ class PartReader:
         text = f"{self.path.name}: {count} message{plural} with an impossible time skipped"
         self._outliers = [LogProblem("timestamp_outliers", text)]
 
-    def read(self, index: LogIndex) -> None:
+    def read(self, index: LogIndex, expanded: ExpandedRecords) -> None:
         """Add the messages of the file to the index, as far as they are readable."""
         try:
             data = read_file(self.path)
             scanner = RecordScanner(data, self._problems)
-            self._read(scanner, data, index)
+            # Topic numbers by channel: the only lookup per message.
+            topics: dict[int, int | None] = {}
+            # A damaged head costs no channel: a file that ended properly has them twice.
+            for opcode, offset, length in scanner.summary():
+                content = data[offset : offset + length]
+                self._keep(opcode, offset, content, index.topic, topics)
+            add = index.adder(self._number)
+            for at in self._read(scanner, data, add, index, topics):
+                records = scanner.expand(at)
+                found = [*scanner.records_of_chunk(records, 0, len(records), at)]
+                add_expanded = index.adder(self._number, EXPANDED + expanded.size)
+                if found:
+                    expanded.append(records)
+                # Yields nothing: there are no chunks inside chunks.
+                list(self._read(found, records, add_expanded, index, topics, at))
             self.is_complete = scanner.is_complete
+            if not self.is_complete and is_being_recorded(self.path):
+                self.is_recording = True
+                self._problems.forget("cut_off")
         except FlightLogError as error:
             self.fault = error
 
-    def _read(self, records: Iterable[Found], data: bytes, index: LogIndex) -> None:
-        # Topic numbers by channel: the only lookup per message.
-        topics: dict[int, int | None] = {}
-        add = index.adder(self._number)
+    def _read(
+        self,
+        records: Iterable[Found],
+        data: bytes,
+        add: Callable[[int, int, int, int], None],
+        index: LogIndex,
+        topics: dict[int, int | None],
+        chunk: int | None = None,
+    ) -> Iterator[int]:
+        """Take records of ``data``; yield where the content of each compressed chunk is.
+
+        ``chunk`` is where the chunk of ``data`` is, for problems; None: ``data`` are the file's.
+        """
         unpack, size = _MESSAGE_HEAD.unpack_from, MESSAGE.size
         for opcode, offset, length in records:
+            place = offset if chunk is None else chunk
             if opcode == _MESSAGE:
                 if length < size:
-                    self._problems.add("short_message", "a message without its fields", offset)
+                    self._problems.add("short_message", "a message without its fields", place)
                     continue
                 channel, _, time_ns = unpack(data, offset)
                 topic = topics.get(channel)
                 if topic is None:
-                    self._problems.add("unknown_channel", "a message of an unknown channel", offset)
+                    self._problems.add("unknown_channel", "a message of an unknown channel", place)
                     continue
                 add(topic, time_ns, offset + size, length - size)
             elif opcode in _KEPT:
                 content = data[offset : offset + length]
-                self._keep(opcode, offset, content, index.topic, topics)
+                self._keep(opcode, place, content, index.topic, topics)
+            elif opcode == _CHUNK:
+                yield offset
 
     def _keep(
         self,

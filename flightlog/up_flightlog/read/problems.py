@@ -36,6 +36,10 @@ class Problems:
         else:
             self._others += 1
 
+    def forget(self, code: str) -> None:
+        for kind in [each for each in self._kinds if each[0] == code]:
+            del self._kinds[kind]
+
     def all(self) -> list[LogProblem]:
         """Return one problem per kind, each naming the file and the first position."""
         found = []

@@ -7,9 +7,10 @@ from array import array
 from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import itemgetter
 from typing import Any
 
-from up.flight_log.json_message import number_at
+from up.flight_log.json_message import number_at, value_at
 
 
 def _numbers() -> array[float]:
@@ -51,12 +52,16 @@ class Series:
         """Return `at` of each of the times, which rise: in one walk along the series."""
         known_s, values = self.times_s, self.values
         last = len(known_s) - 1
+        if last < 0:
+            return [None for _ in times_s]
         found: list[float | None] = []
         after = 0
         for time_s in times_s:
             while after < last and known_s[after] < time_s:
                 after += 1
-            if after > 0 and known_s[after - 1] < time_s < known_s[after]:
+            if known_s[after] == time_s:
+                found.append(values[after])
+            elif after > 0 and known_s[after - 1] < time_s < known_s[after]:
                 low_s, high_s = known_s[after - 1], known_s[after]
                 low = values[after - 1]
                 share = (time_s - low_s) / (high_s - low_s)
@@ -72,27 +77,39 @@ class Columns:
 
     def __init__(self, fields: Sequence[str]) -> None:
         self.series = {name: Series() for name in fields}
-        self._fields = [
-            (tuple(name.split(".")), series.times_s.append, series.values.append)
-            for name, series in self.series.items()
-        ]
+        self._groups: dict[tuple[str, ...], list[tuple[str, Series]]] = {}
+        for name, series in self.series.items():
+            *group, key = name.split(".")
+            self._groups.setdefault(tuple(group), []).append((key, series))
 
-    def add(self, time_s: float, data: Mapping[str, Any]) -> None:
-        for path, add_time, add_value in self._fields:
-            value = number_at(data, path)
-            if value is not None:
-                add_time(time_s)
-                add_value(value)
+    def add_all(self, times_s: Sequence[float], messages: Sequence[Mapping[str, Any]]) -> None:
+        """Add the messages of these times."""
+        times = array("d", times_s)
+        for group, fields in self._groups.items():
+            inner = [value_at(each, group) for each in messages] if group else messages
+            for key, series in fields:
+                try:
+                    found = [*map(itemgetter(key), inner)]
+                except (KeyError, TypeError):
+                    found = [value_at(each, (key,)) for each in inner]
+                _add_values(series, times, found)
 
 
-def columns(
-    messages: Iterable[tuple[float, Mapping[str, Any]]], fields: Sequence[str]
-) -> dict[str, Series]:
-    """Return a series for each field of the messages."""
-    found = Columns(fields)
-    for time_s, data in messages:
-        found.add(time_s, data)
-    return found.series
+def _add_values(series: Series, times_s: array[float], values: list[Any]) -> None:
+    kinds = {*map(type, values)}
+    # Nearly always all of them are numbers, or all are missing: neither needs a call for each.
+    if kinds == {type(None)}:
+        return
+    if kinds <= {float, int}:
+        try:
+            series.values.fromlist(values)
+        except OverflowError:
+            pass
+        else:
+            series.times_s.extend(times_s)
+            return
+    for time_s, value in zip(times_s, values, strict=True):
+        series.add(time_s, number_at(value, ()))
 
 
 def turn(degrees: float) -> float:
@@ -113,8 +130,8 @@ def error_of(
 ) -> tuple[Series, ErrorFigures | None]:
     """Return measured minus true values, where both are known, and their statistics."""
     error = Series()
-    for time_s, value in zip(series.times_s, series.values, strict=True):
-        true = truth.at(time_s, within_s=0.5)
+    true_values = truth.each_at(series.times_s, within_s=0.5)
+    for time_s, value, true in zip(series.times_s, series.values, true_values, strict=True):
         if true is not None:
             error.add(time_s, turn(value - true) if is_angle else value - true)
     if not error:

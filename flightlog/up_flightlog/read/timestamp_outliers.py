@@ -19,8 +19,11 @@ def outliers(times_ns: Sequence[int]) -> Iterator[int]:
 
     A jump that the next messages confirm is accepted: the flight continues there.
     """
-    steps = list(map(sub, times_ns[1:], times_ns))
-    if not steps or (max(steps) <= FAR_NS and min(steps) >= -FAR_NS):
+    later = times_ns[1:]
+    if (
+        max(map(sub, later, times_ns), default=0) <= FAR_NS
+        and min(map(sub, later, times_ns), default=0) >= -FAR_NS
+    ):
         return
     before = _beginning(times_ns[: _NEIGHBOURS + 1])
     for place, time_ns in enumerate(times_ns):

@@ -41,12 +41,12 @@ def events_of(log: FlightLog, context: FlightContext) -> list[Event]:
 
 
 def _states(context: FlightContext) -> Iterator[Event]:
-    mode: object = None
+    for time_s, mode in context.modes:
+        if mode is not None:
+            yield Event(time_s, "flight_mode", f"flight mode {mode}")
     is_armed: bool | None = None
     is_failsafe: bool | None = None
     for state in context.states:
-        if state.flight_mode != mode and state.flight_mode is not None:
-            yield Event(state.time_s, "flight_mode", f"flight mode {state.flight_mode}")
         if state.is_armed is not None and state.is_armed != is_armed:
             if is_armed is not None or state.is_armed:
                 code = "armed" if state.is_armed else "disarmed"
@@ -58,7 +58,6 @@ def _states(context: FlightContext) -> Iterator[Event]:
             elif is_failsafe is not None:
                 yield Event(state.time_s, "failsafe_over", "the receiver is back")
             is_failsafe = state.is_failsafe
-        mode = state.flight_mode
 
 
 def _from_commands(log: FlightLog) -> Iterator[Event]:

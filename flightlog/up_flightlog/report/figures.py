@@ -23,7 +23,7 @@ def figures_of(summary: FlightSummary) -> Iterator[tuple[str, str]]:
     if summary.farthest_m is not None:
         yield "farthest from home", _distance(summary.farthest_m)
     if summary.lowest_battery_percent is not None:
-        yield "lowest battery", f"{summary.lowest_battery_percent:.0f} percent"
+        yield "lowest phone battery", f"{summary.lowest_battery_percent:.0f} percent"
     if summary.lowest_flight_battery_v is not None:
         yield "lowest flight battery", f"{summary.lowest_flight_battery_v:.2f} V"
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
+from up.system.death_signal import request_death_signal
 from up_flightlog.plots.canvas import Sheet, load_matplotlib, png_of
 from up_flightlog.plots.chart import ready
 from up_flightlog.plots.theme import DARK, DAYLIGHT
@@ -47,14 +49,17 @@ def image_sets(content: ReportContent) -> Iterator[ImageSet]:
         return
     # A fork has the content already; only numbers and pictures pass between the processes.
     fork = multiprocessing.get_context("fork")
-    with ProcessPoolExecutor(workers, fork, _begin, (content,)) as pool:
+    with ProcessPoolExecutor(workers, fork, _begin, (content, os.getpid())) as pool:
         yield from pool.map(_drawn_in_worker, range(count))
 
 
 _worker: list[ReportContent] = []
 
 
-def _begin(content: ReportContent) -> None:
+def _begin(content: ReportContent, parent: int) -> None:
+    end_with_parent = request_death_signal(signal.SIGKILL, parent)
+    if end_with_parent is not None:
+        end_with_parent()
     _worker.append(content)
 
 

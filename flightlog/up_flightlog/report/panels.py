@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up_flightlog.findings.flight_context import CHANNELS
 from up_flightlog.plots.chart import Curve, Panel
 from up_flightlog.read.series import Series, error_of
-from up_flightlog.report.report_data import CHANNELS, ReportData
+from up_flightlog.report.report_data import ReportData
 
 _COLOURS = dict(zip(CHANNELS, ("blue", "vermilion", "green", "purple"), strict=True))
 _STYLES = dict(zip(CHANNELS, ("-", "--", "-.", ":"), strict=True))
@@ -52,7 +53,7 @@ def _attitude(data: ReportData) -> Picture:
         ]
         panels.append(Panel(title, "deg", curves, about=0.0, min_range=10.0, share=1.15))
     caption = (
-        "Attitude and its set-point: from the sticks in FBW, from the Raspberry Pi in SETPOINT,"
+        "Attitude and its set-point: from the sticks in FBW, from the Raspberry Pi while it flies,"
         " from the profile in failsafe. ACRO and RATE have no attitude set-point."
     )
     return Picture("attitude", "Attitude and set-point", caption, tuple(panels))

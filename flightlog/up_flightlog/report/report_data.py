@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any
 
+from up.flight_log.json_message import number_at, value_at
 from up.flight_log.origin_text import KEY, link_and_role
 from up_flightlog.findings.estimate_error import ORIENTATION
-from up_flightlog.findings.flight_context import ANGLES, FlightContext
+from up_flightlog.findings.flight_context import (
+    ALTITUDE,
+    ANGLES,
+    CHANNELS,
+    INPUTS,
+    RX,
+    FlightContext,
+)
 from up_flightlog.plots.chart import Band
 from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.series import Columns, Series, columns
+from up_flightlog.read.series import Columns, Series
 from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.telemetry_frames import frames
 from up_flightlog.report.demand import DemandSeries
 
-STICKS, SERVOS = "up.rx.update", "up.servo.update"
+SERVOS = "up.servo.update"
 STATUS, STATE = "arduino.status", "up.flight.state"
-ALTITUDE, LOCATION, LINK_STATE = "up.altitude.change", "up.location.update", "up.link.state"
-CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
-INPUTS = (*CHANNELS, "aux1", "aux2")
+LOCATION, LINK_STATE = "up.location.update", "up.link.state"
 FRAME_FIELDS = (
     *(f"orientation.{name}" for name in ANGLES),
     *(f"rx.{name}" for name in INPUTS),
@@ -30,9 +35,11 @@ FRAME_FIELDS = (
     *("altitude", "android.batteryLevel", "load.cpu", "load.ram", "load.delay_ms"),
     *("arduino.loop_us", "arduino.late_us", "arduino.flight_battery_v"),
 )
-BOARD_TOPICS = (STATUS, STICKS, SERVOS, STATE)
+BOARD_TOPICS = (STATUS, RX, SERVOS, STATE)
 PHONE_TOPICS = (LOCATION, ALTITUDE, "up.heading.change", "android.battery")
 _MAX_STEPS = 600
+_FRAMES = 64
+"""Frames in memory together."""
 GROUND_LINKS = ("ground", "mission_control")
 
 
@@ -58,24 +65,23 @@ class ReportData:
 
 def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
     """Read it; raises FlightLogError when a file can no longer be read."""
-    read = partial(_messages, log)
     known, blocked = _from_frames(log)
-    followed_by = partial(from_selected_source, log)
-    attitude = context.attitude
-    sticks, servos = columns(read(STICKS), INPUTS), columns(read(SERVOS), CHANNELS)
-    altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
-    wanted = (each for each in read(ALTITUDE) if each[1].get("mode") == "required")
+    attitude, sticks, servos = context.attitude, context.sticks, log.columns(SERVOS, CHANNELS)
+    required_altitude = Series()
+    for time_s, data in _messages(log, ALTITUDE):
+        if data.get("mode") == "required":
+            required_altitude.add(time_s, number_at(data, ("altitude",)))
     return ReportData(
         log=log,
         attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
         demand=DemandSeries(log),
         sticks={name: sticks[name] or known[f"rx.{name}"] for name in INPUTS},
         servos={name: servos[name] or known[f"servo.{name}"] for name in CHANNELS},
-        status=columns(read(STATUS), ("loop_us", "late_us")),
+        status=_of_status(context, ("loop_us", "late_us")),
         frames=known,
-        altitude=altitude["altitude"] or known["altitude"],
-        required_altitude=columns(wanted, ("altitude",))["altitude"],
-        speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
+        altitude=context.altitude or known["altitude"],
+        required_altitude=required_altitude,
+        speed=from_selected_source(log, "location", LOCATION, ("speed",))["speed"],
         truth=context.truth,
         bands=list(bands_of(context)),
         blocked=blocked,
@@ -85,13 +91,19 @@ def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
 
 def bands_of(context: FlightContext) -> Iterator[Band]:
     """Yield the modes and their times; the circle of the receiver's failsafe is a separate one."""
-    begin_s, name = 0.0, ""
-    for state in context.states:
-        now = "failsafe" if state.is_failsafe else state.flight_mode or ""
+    changes: list[tuple[float, bool | None, str | None]] = [
+        *((state.time_s, state.is_failsafe is True, None) for state in context.states),
+        *((time_s, None, mode or "") for time_s, mode in context.modes),
+    ]
+    begin_s, name, mode, is_failsafe = 0.0, "", "", False
+    for time_s, failsafe, flown in sorted(changes, key=lambda each: each[0]):
+        is_failsafe = is_failsafe if failsafe is None else failsafe
+        mode = mode if flown is None else flown
+        now = "failsafe" if is_failsafe else mode
         if now != name:
-            if name:
-                yield Band(begin_s, state.time_s, name)
-            begin_s, name = state.time_s, now
+            if name and time_s > begin_s:
+                yield Band(begin_s, time_s, name)
+            begin_s, name = time_s, now
     if name:
         yield Band(begin_s, context.log.length_s, name)
 
@@ -101,20 +113,27 @@ def _messages(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str
         yield message.time_s, message.data
 
 
+def _of_status(context: FlightContext, fields: Sequence[str]) -> dict[str, Series]:
+    found, statuses = Columns(fields), context.statuses
+    found.add_all([each.time_s for each in statuses], [each.data for each in statuses])
+    return found.series
+
+
 def _from_frames(log: FlightLog) -> tuple[dict[str, Series], Series]:
     """Return the series of telemetry, and how often the event loop was blocked.
 
-    The frames of an hour would take too much memory together: each is read and released. Frames
+    The frames of an hour would take too much memory together: some are read and released. Frames
     that are built from Commands lack the readings that the report takes from those Commands.
     """
     found, blocked = Columns(FRAME_FIELDS), Series()
-    for frame in frames(log, without=(ORIENTATION, STICKS, SERVOS)):
-        found.add(frame.time_s, frame.data)
-        counters = frame.data.get("counters")
-        reactor = counters.get("reactor") if isinstance(counters, dict) else None
-        if isinstance(reactor, dict):
-            times = sum(each for each in reactor.values() if type(each) is int)
-            blocked.add(frame.time_s, float(times))
+    read = frames(log, without=(ORIENTATION, RX, SERVOS))
+    while some := list(islice(read, _FRAMES)):
+        found.add_all([each.time_s for each in some], [each.data for each in some])
+        for frame in some:
+            reactor = value_at(frame.data, ("counters", "reactor"))
+            if isinstance(reactor, dict):
+                times = sum(each for each in reactor.values() if type(each) is int)
+                blocked.add(frame.time_s, float(times))
     return found.series, blocked
 
 

@@ -63,6 +63,7 @@ class ClusterNode:
             folder,
             program="up-proxy",
             client_reactor=PollerReactor(reactor, poller),
+            replicas=config.replicas,
         )
         self._member.on_connected = self._on_connected
         self._member.on_ready = self._on_ready

@@ -4,13 +4,16 @@ import json
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from up.protocols.proxy_lines import Access
 from up_proxy.tenant_quota import Usage
 
 MAX_NUMBER = 2**53
-_HEADER = re.compile(rb"([!-~]{1,32}) ([0-9]{1,16}) ([0-9]{1,16}) ([0-9]{1,16})\n")
+_MAX_HEADER = 32 + 3 * 17
+"""Bytes of a node's name and three numbers of 16 digits."""
+_NAME = re.compile(r"[!-~]{1,32}", re.ASCII)
 
 
 class MalformedError(ValueError):
@@ -34,12 +37,30 @@ def pack(node: str, fence: int, sent_s: float, ground: int, body: bytes) -> byte
 
 def unpack(payload: bytes) -> Envelope:
     """Return the parts of a message. Raises MalformedError."""
-    match = _HEADER.match(payload)
-    if match is None:
-        raise MalformedError("header")
-    node, fence, sent_ms, ground = match.groups()
-    body = payload[match.end() :]
-    return Envelope(node.decode("ascii"), int(fence), int(sent_ms) / 1000, int(ground), body)
+    # The path of every relayed line: a regular expression takes twice as long.
+    header, _, body = payload.partition(b"\n")
+    try:
+        name, fence, sent_ms, ground = header.split(b" ")
+        if (
+            len(header) <= _MAX_HEADER
+            and fence.isdigit()
+            and sent_ms.isdigit()
+            and ground.isdigit()
+        ):
+            node = _known_name(name)
+            return Envelope(node, int(fence), int(sent_ms) / 1000, int(ground), body)
+    except ValueError:
+        pass
+    raise MalformedError("header")
+
+
+@lru_cache(256)
+def _known_name(name: bytes) -> str:
+    """Return a node's name as text. Raises ValueError."""
+    node = name.decode("ascii")
+    if not _NAME.fullmatch(node):
+        raise ValueError(node)
+    return node
 
 
 @dataclass(frozen=True, slots=True)

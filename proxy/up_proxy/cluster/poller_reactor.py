@@ -3,6 +3,7 @@
 import select
 from typing import Any
 
+from twisted.internet.main import CONNECTION_LOST
 from twisted.internet.tcp import Connector
 from twisted.python.failure import Failure
 from zope.interface import directlyProvides, providedBy
@@ -63,10 +64,14 @@ class PollerReactor:
         if handler is None or handler.events != READ:
             transport.write(data)
             return
-        sent = transport.writeSomeData(data)
-        if isinstance(sent, Exception):
-            self._reactor.callLater(0, handler.lose, sent)
-        elif sent < len(data):
+        try:
+            sent = transport.socket.send(data)
+        except (BlockingIOError, InterruptedError):
+            sent = 0
+        except OSError:
+            self._reactor.callLater(0, handler.lose, CONNECTION_LOST)
+            return
+        if sent < len(data):
             transport.write(data[sent:])
 
     def removeWriter(self, descriptor: Any) -> None:  # noqa: N802 - Twisted's name

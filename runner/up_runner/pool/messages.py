@@ -50,7 +50,7 @@ def decode_response(aircraft: str, fields: Mapping[str, Any]) -> Response:
             None if code is None else Problem(str(code), str(fields["text"])),
             str(fields["host"]),
         )
-    except (KeyError, TypeError, ValueError, AttributeError):
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError):
         return failed(aircraft, NO_ANSWER, "the runner of this aircraft gave a malformed answer")
 
 

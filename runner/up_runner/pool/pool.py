@@ -76,6 +76,7 @@ class Pool:
             member_id=_own_id(host.run_folder.path / ID),
             ttl_s=config.pool.lease_s,
             renewals=RENEWALS,
+            replicas=config.pool.replicas,
         )
         self.id = self._member.id
         store = ObjectStore(self._member.client, STORE)
@@ -91,6 +92,8 @@ class Pool:
         self._member.actions.update(
             start=self._on_start, request=self._on_request, **self._fleet.actions
         )
+        self._starting: set[str] = set()
+        """Aircraft without a lease yet, which count for the quota."""
         self._is_stopped = False
         self._sweep_timer: Timer | None = None
         self._beat_timer: Timer | None = None
@@ -169,7 +172,8 @@ class Pool:
 
     def _names(self) -> set[str]:
         """Return the aircraft of the tenant whose instances run or are wanted."""
-        return {*self._directory.wanted, *self._directory.holders, *self.hosted.names()}
+        directory = self._directory
+        return {*directory.wanted, *directory.holders, *self.hosted.names(), *self._starting}
 
     def _shares(self) -> dict[str, dict[str, int]]:
         """Return the tenant's usage at all runners, and the quota if it is set."""
@@ -247,12 +251,15 @@ class Pool:
                 return failed(name, QUOTA, "the tenant has used its quota of instances")
             if not self._instances.free:
                 return failed(name, INSTANCE_LIMIT, "no free place on this runner")
+            self._starting.add(name)
             try:
                 hosted = await self.hosted.acquire(request, is_orphan=is_orphan)
             except TakenError:
                 return failed(name, ELSEWHERE, "another runner has this aircraft")
             except UNAVAILABLE:
                 return failed(name, CLUSTER, "no lease: the cluster does not answer")
+            finally:
+                self._starting.discard(name)
             try:
                 await self.hosted.prepare(hosted)
                 response = self._named(await self._instances.spawn(request))

@@ -63,7 +63,7 @@ class FlightDynamics:
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
-    With ``may_land`` a soft contact with the ground is none: the aircraft slides and stops.
+    With ``may_land`` a soft contact with the ground is not a crash: the aircraft slides and stops.
     ``model`` is the flight model that flies. Raises ``FlightUnavailableError`` where it cannot.
     """
 

@@ -13,6 +13,7 @@ _OFF_RPM = 400.0
 _RPM = 60 / (2 * math.pi)
 # Open-circuit volts of a LiPo cell by its state of charge.
 _CELL_V = ((0.0, 3.2), (0.05, 3.5), (0.1, 3.62), (0.3, 3.74), (0.5, 3.82), (0.8, 4.02), (1.0, 4.18))
+_CELL_PARTS = tuple(itertools.pairwise(_CELL_V))
 
 
 class Battery:
@@ -29,7 +30,7 @@ class Battery:
     def open_v(self) -> float:
         """Return the volts without current."""
         share = self._left_c / self._capacity_c
-        for (low, low_v), (high, high_v) in itertools.pairwise(_CELL_V):
+        for (low, low_v), (high, high_v) in _CELL_PARTS:
             if share <= high:
                 way = (share - low) / (high - low)
                 return self._config.cells * (low_v + way * (high_v - low_v))
@@ -57,7 +58,7 @@ class Battery:
 
 def charge_at(cell_v: float) -> float:
     """Return the charge of a LiPo, percent, at which a cell has these volts without current."""
-    for (low, low_v), (high, high_v) in itertools.pairwise(_CELL_V):
+    for (low, low_v), (high, high_v) in _CELL_PARTS:
         if cell_v <= high_v:
             return 100 * max(0.0, low + (high - low) * (cell_v - low_v) / (high_v - low_v))
     return 100.0

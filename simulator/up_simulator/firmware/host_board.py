@@ -41,6 +41,7 @@ class HostImu(BoardImu):
         super().__init__(errors, seed)
         self._library = library
         self._view: View = library.view
+        self._sample = library.view.sample
         self._random = random.Random(f"imu {seed}")
         self._numbers = [0] * SAMPLE_NUMBERS
 
@@ -53,7 +54,7 @@ class HostImu(BoardImu):
             self._numbers = [self._random.randint(-32768, 32767) for _ in range(SAMPLE_NUMBERS)]
         elif self._fault != "frozen":
             self._numbers = self._measure()
-        self._view.sample[:] = self._numbers
+        self._sample[:] = self._numbers
 
     def _measure(self) -> list[int]:
         view = self._view
@@ -62,15 +63,18 @@ class HostImu(BoardImu):
         a_deg_s = _COUNTS_DEG_S / (1 << (registers[_GYRO_CONFIG] >> 3 & 3))
         a_m_s2 = _COUNTS_G / (1 << (registers[_ACCEL_CONFIG] >> 3 & 3)) / GRAVITY_M_S2
         # The chip lies x forward, y left, z up.
-        return [
-            _count(felt.force_x_m_s2 * a_m_s2),
-            _count(-felt.force_y_m_s2 * a_m_s2),
-            _count(-felt.force_z_m_s2 * a_m_s2),
+        counts = [
+            round(felt.force_x_m_s2 * a_m_s2),
+            round(-felt.force_y_m_s2 * a_m_s2),
+            round(-felt.force_z_m_s2 * a_m_s2),
             _TEMPERATURE,
-            _count(felt.roll_rate_deg_s * a_deg_s),
-            _count(-felt.pitch_rate_deg_s * a_deg_s),
-            _count(-felt.yaw_rate_deg_s * a_deg_s),
+            round(felt.roll_rate_deg_s * a_deg_s),
+            round(-felt.pitch_rate_deg_s * a_deg_s),
+            round(-felt.yaw_rate_deg_s * a_deg_s),
         ]
+        if min(counts) < -32768 or max(counts) > 32767:
+            return [max(-32768, min(32767, count)) for count in counts]
+        return counts
 
 
 class HostBoard:
@@ -90,6 +94,8 @@ class HostBoard:
         self._library = HostLibrary(Path(library))
         self.imu = HostImu(self._library, imu_errors, seed)
         self._until_us = 0.0
+        self._width_us = self._library.view.width_us
+        self._ended_us = self._library.view.ended_us
         self._into = ctypes.create_string_buffer(_READ_SIZE)
         # As in the rig: a receiver has no reason to begin with the board.
         start_us = 100_000 + random.Random(f"receiver start {seed}").uniform(0, 20_000)
@@ -120,18 +126,22 @@ class HostBoard:
         self._library.set_a7(volts)
 
     def pulses_us(self) -> Pulses:
-        ailerons, elevator, throttle, rudder = (
-            width if width else neutral
-            for width, neutral in zip(self._library.view.width_us, NEUTRAL_US, strict=True)
+        ailerons, elevator, throttle, rudder = self._width_us
+        if ailerons and elevator and throttle and rudder:
+            return ailerons, elevator, throttle, rudder
+        # 0: no pulse yet.
+        neutral = NEUTRAL_US
+        return (
+            ailerons or neutral[0],
+            elevator or neutral[1],
+            throttle or neutral[2],
+            rudder or neutral[3],
         )
-        return ailerons, elevator, throttle, rudder
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
         now_us = self.now_us
-        ailerons, elevator, throttle, rudder = (
-            now_us - each for each in self._library.view.ended_us
-        )
-        return ailerons, elevator, throttle, rudder
+        ailerons, elevator, throttle, rudder = self._ended_us
+        return now_us - ailerons, now_us - elevator, now_us - throttle, now_us - rudder
 
     def read(self) -> bytes:
         parts = []
@@ -149,7 +159,3 @@ class HostBoard:
     @property
     def eeprom(self) -> bytes:
         return bytes(self._library.view.eeprom)
-
-
-def _count(value: float) -> int:
-    return max(-32768, min(32767, round(value)))

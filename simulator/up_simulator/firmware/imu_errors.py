@@ -14,6 +14,7 @@ Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
 DRAWN_BIAS_DEG_S = (2.0, 4.0)
 DRAWN_DRIFT_DEG_S = 1.0
+_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +62,7 @@ class ImuModel:
     def __init__(self, errors: ImuErrors, seed: int) -> None:
         self.errors = errors
         self.throttle = 0.0
-        self._gauss = random.Random(f"imu errors {seed}").gauss
+        self._random = random.Random(f"imu errors {seed}").random
         self._turned = 0.0
         self._measured_s = 0.0
 
@@ -80,15 +81,22 @@ class ImuModel:
             p, q, r = p + rate * shaken[0], q + rate * shaken[1], r + rate * shaken[2]
             x, y, z = x + force * shaken[0], y + force * shaken[1], z + force * shaken[2]
         self._measured_s = time_s
-        gauss, gyro, accel = self._gauss, errors.gyro_noise_deg_s, errors.accel_noise_m_s2
+        gyro, accel = errors.gyro_noise_deg_s, errors.accel_noise_m_s2
+        (n1, n2), (n3, n4), (n5, n6) = self._normal(), self._normal(), self._normal()
         return Motion(
-            motion.roll_rate_deg_s + p + gauss(0.0, gyro),
-            motion.pitch_rate_deg_s + q + gauss(0.0, gyro),
-            motion.yaw_rate_deg_s + r + gauss(0.0, gyro),
-            motion.force_x_m_s2 + x + gauss(0.0, accel),
-            motion.force_y_m_s2 + y + gauss(0.0, accel),
-            motion.force_z_m_s2 + z + gauss(0.0, accel),
+            motion.roll_rate_deg_s + p + n1 * gyro,
+            motion.pitch_rate_deg_s + q + n2 * gyro,
+            motion.yaw_rate_deg_s + r + n3 * gyro,
+            motion.force_x_m_s2 + x + n4 * accel,
+            motion.force_y_m_s2 + y + n5 * accel,
+            motion.force_z_m_s2 + z + n6 * accel,
         )
+
+    def _normal(self) -> tuple[float, float]:
+        """Return two numbers of the standard normal distribution (Box and Muller 1958)."""
+        angle = self._random() * _TURN
+        radius = math.sqrt(-2.0 * math.log(1.0 - self._random()))
+        return math.cos(angle) * radius, math.sin(angle) * radius
 
     def _shake(self, time_s: float) -> Vector:
         # An unbalanced rotor shakes two axes a quarter of a turn apart, and its mount the third.

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, Any
 
+from up.system.death_signal import request_death_signal
 from up.system.pid_file import VARIABLE
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.user_log import JSON_ENVIRONMENT, LogLine, read_line
@@ -21,7 +20,6 @@ STOP_LIMIT_S = 5.0
 TAIL_LINES = 15
 TAIL_BYTES = 65_536
 POLL_PERIOD_S = 0.02
-_PR_SET_PDEATHSIG = 1
 
 
 class Child:
@@ -179,25 +177,3 @@ def _input_of(in_foreground: bool, is_piped: bool) -> int | None:
     if is_piped:
         return subprocess.PIPE
     return None if in_foreground else subprocess.DEVNULL
-
-
-def request_death_signal(
-    number: int = signal.SIGTERM, parent: int | None = None
-) -> Callable[[], None] | None:
-    """Return a function for the child before exec: it requests a signal at our death.
-
-    The child calls it, and gets the signal; ``parent`` is the process that creates it, by default
-    this one. None: only Linux supports it.
-    """
-    if not sys.platform.startswith("linux"):
-        return None
-    prctl = ctypes.CDLL(None).prctl
-    expected_parent = os.getpid() if parent is None else parent
-
-    def request() -> None:
-        prctl(_PR_SET_PDEATHSIG, number, 0, 0, 0)
-        # A parent that died before this request sends no signal.
-        if os.getppid() != expected_parent:
-            os.kill(os.getpid(), number)
-
-    return request

@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from types import TracebackType
 from typing import Any, TypeVar
 
-from up_simulator.harness.child import request_death_signal
+from up.system.death_signal import request_death_signal
 from up_simulator.harness.signal_handling import SIGNALS
 
 T = TypeVar("T")

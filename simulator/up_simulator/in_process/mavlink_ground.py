@@ -33,7 +33,7 @@ class MavlinkGround:
     """Reads everything, and sends a heartbeat every second unless ``is_silent``; it reconnects.
 
     ``mode`` is the aircraft's, by ArduPlane's name, otherwise its number; ``ack`` the result of the
-    newest command, empty before it. ``errors`` counts what is no packet. Raises ParticipantError
+    newest command, empty before it. ``errors`` counts malformed packets. Raises ParticipantError
     without pymavlink.
     """
 

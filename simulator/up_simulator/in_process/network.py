@@ -95,7 +95,7 @@ class Network:
             call, arguments = self.next_step.popleft()
             call(*arguments)
         for pipe in self._pipes:
-            if len(pipe):
+            if pipe.waiting:
                 for call, arguments in pipe.take(now_s):
                     call(*arguments)
         if self.to_write:

@@ -206,7 +206,9 @@ class InProcessRaspilot:
         data = self.line.read(0.0, BYTES_A_STEP)
         if data:
             board.write(data)
-        self.line.write(board.read())
+        data = board.read()
+        if data:
+            self.line.write(data)
 
     def module(self, class_name: str) -> BaseModule:
         """Return a module that is loaded now; raises LookupError."""

@@ -21,10 +21,11 @@ class LinkPipe(Generic[_T]):
         self.model = model
         self.lost = 0
         self._is_datagram = is_datagram
-        self._waiting: deque[tuple[float, int, _T]] = deque()
+        self.waiting: deque[tuple[float, int, _T]] = deque()
+        """Due time, the model's blackouts when it was sent, packet."""
 
     def __len__(self) -> int:
-        return len(self._waiting)
+        return len(self.waiting)
 
     def send(self, packet: _T, size: int, now_s: float) -> bool:
         """Take a packet of that many bytes; False: it vanished."""
@@ -33,16 +34,16 @@ class LinkPipe(Generic[_T]):
         if due_s is None:
             self.lost += 1
             return False
-        self._waiting.append((due_s, model.blackouts, packet))
+        self.waiting.append((due_s, model.blackouts, packet))
         return True
 
     def next_s(self) -> float:
         """Return when the next packet arrives: infinity while none will."""
-        return self.model.arrival_s(self._waiting[0][0]) if self._waiting else math.inf
+        return self.model.arrival_s(self.waiting[0][0]) if self.waiting else math.inf
 
     def take(self, now_s: float) -> list[_T]:
         """Return the data that has arrived; data that met a blackout in flight is lost."""
-        model, waiting = self.model, self._waiting
+        model, waiting = self.model, self.waiting
         while waiting and (model.is_black or waiting[0][1] != model.blackouts):
             waiting.popleft()
             self.lost += 1
@@ -52,4 +53,4 @@ class LinkPipe(Generic[_T]):
         return arrived
 
     def clear(self) -> None:
-        self._waiting.clear()
+        self.waiting.clear()

@@ -24,7 +24,7 @@ _NO_FIGURES = Figures(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0)
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A flight; ``found`` is what was wrong. The texts say why a Command or the flight failed."""
+    """A flight; ``found`` lists the failures. The texts say why a Command or the flight failed."""
 
     case: Case
     found: Found

@@ -86,7 +86,7 @@ class Figures:
 def judge(track: Sequence[Sample], limits: Limits, crash: str | None = None) -> Found:
     """Return what was wrong, by code, and when (s), causes first; empty: it held.
 
-    ``crash`` is what ended the flight; a landing is none.
+    ``crash`` names the crash that ended the flight; a landing is not a crash.
     """
     found: dict[str, float] = {}
     for code, time_s in _found(track, limits, crash):

@@ -37,7 +37,7 @@ _SWITCH = SwitchPart().positions()
 
 @dataclass(frozen=True, slots=True)
 class Setup:
-    """What is proved. ``files`` has what the owner wrote, ``values`` with the defaults."""
+    """The input of a proof. ``files`` has the owner's values, ``values`` with the defaults."""
 
     folder: str
     airframe: str

@@ -59,6 +59,7 @@ def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> Sce
     demand = DemandModel(profile_of(scenario, airframe.profile))
     flight = ScenarioFlight(scenario, world, board, participants, demand, airframe.imu)
     flight.record.settings = _settings(scenario, airframe)
+    flight.record.model = dynamics.model
     return flight
 
 

@@ -69,6 +69,7 @@ class ScenarioFlight:
         self._events = sorted(scenario.events, key=lambda event: event.at_s)
         self._event_titles: list[str] = []
         self._sticks_us = dict(INITIAL_US)
+        self._sticks_still_until_s = 0.0
         self._steps = 0
         self._total_steps = round(scenario.duration_s / STEP_S)
         self.record = FlightRecord(scenario, FlightLog(columns_of(scenario)))
@@ -197,6 +198,9 @@ class ScenarioFlight:
             self._demand.setpoint = setpoint_of(command.payload)
 
     def _move_sticks(self, time_s: float) -> None:
+        if time_s < self._sticks_still_until_s:
+            return
+        self._sticks_still_until_s = self._timeline.still_until_s(time_s)
         for channel in CHANNELS:
             pulse_us = self._timeline.pulse_us(channel, time_s)
             if pulse_us != self._sticks_us[channel]:

@@ -104,6 +104,7 @@ class _FlightFile:
                 "about": scenario.about,
                 "seed": str(scenario.seed),
                 "board": record.board_title,
+                "model": record.model,
             },
         )
         for file, settings in record.settings.items():

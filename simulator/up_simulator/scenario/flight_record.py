@@ -72,6 +72,7 @@ class FlightRecord:
     failure_log: Sequence[str] = ()
     is_interrupted: bool = False
     board_title: str = ""
+    model: str = ""
     notes: dict[str, str] = field(default_factory=dict)
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     black_boxes: Mapping[str, bytes] = field(default_factory=dict)

@@ -164,9 +164,9 @@ class LineBoard:
         return self._board.pulse_ages_us()
 
     def read(self) -> bytes:
-        data = self._board.read()
-        self.tap.feed(data, self.now_s)
-        return self.wires.pass_on(data, FROM_BOARD, self.now_s)
+        data, now_s = self._board.read(), self.now_s
+        self.tap.feed(data, now_s)
+        return self.wires.pass_on(data, FROM_BOARD, now_s)
 
     def write(self, data: bytes) -> None:
         arrived = self.wires.pass_on(data, TO_BOARD, self.now_s)

@@ -7,9 +7,9 @@ import io
 import math
 import sys
 from array import array
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from up_simulator.scenario.signals import EVENT_COLUMN, Kind, signal_of
 
@@ -44,12 +44,14 @@ class FlightLog:
         self._numbers: dict[str, array[float]] = {}
         self._texts: dict[str, list[str]] = {}
         self._count = 0
+        self._appends: list[tuple[str, Callable[[Any], None]]] = []
         self._rounded: dict[str, int] = {}
         for name in self.columns:
             if is_text(name):
                 self._texts[name] = []
             else:
-                self._numbers[name] = array("d")
+                self._numbers[name] = numbers = array("d")
+                self._appends.append((name, numbers.append))
 
     def __len__(self) -> int:
         return self._count
@@ -61,11 +63,12 @@ class FlightLog:
         for name, texts in self._texts.items():
             value = values.get(name)
             texts.append("" if value is None else sys.intern(str(value)))
-        for name, numbers in self._numbers.items():
+        nan = math.nan
+        for name, append in self._appends:
             try:
-                numbers.append(values.get(name, math.nan))  # type: ignore[arg-type]
+                append(values.get(name, nan))
             except TypeError:
-                numbers.append(math.nan)
+                append(nan)
         self._count += 1
 
     @property

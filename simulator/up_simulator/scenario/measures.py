@@ -1,6 +1,6 @@
 """How each kind of expectation measures a window of the log.
 
-Codes of what is not held: ``out_of_limits``, ``too_late``, ``never``, ``not_known``.
+Codes of limits that are not held: ``out_of_limits``, ``too_late``, ``never``, ``not_known``.
 """
 
 from __future__ import annotations

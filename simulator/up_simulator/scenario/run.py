@@ -108,13 +108,19 @@ def fly_scenario(
     record = _fly(name, scenario, progress, notify)
     result = Result(record, verdicts_of(record))
     if scenario.control is not None and not record.is_interrupted and record.failure is None:
-        control = _fly(f"{name}, control run", control_scenario(scenario), progress, notify)
+        # The flight has already reported the cause.
+        control = _fly(f"{name}, control run", control_scenario(scenario), progress)
         result.control = control
         result.verdicts += control_verdicts(scenario, control)
     return result
 
 
-def _fly(name: str, scenario: Scenario, progress: ProgressLine, notify: Notify) -> FlightRecord:
+def _fly(
+    name: str,
+    scenario: Scenario,
+    progress: ProgressLine,
+    notify: Notify = lambda _text: None,
+) -> FlightRecord:
     progress.begin(name, scenario.duration_s)
     try:
         flight = build_flight(scenario, notify)
@@ -216,6 +222,7 @@ def _summary(name: str, result: Result) -> dict[str, object]:
     return {
         "name": name,
         "title": record.scenario.title,
+        "model": record.model,
         "held": result.is_held,
         "flown_s": round(record.flown_s, 3),
         "speed": round(record.speed, 2),

@@ -24,7 +24,18 @@ from up_simulator.scenario.sticks import CHANNELS
 
 Values = dict[str, float | bool | str | None]
 _SERVOS = CHANNELS[:4]
-_PLACES = {"estimate": "navigation", "home": "home", "target": "navigation.target"}
+_PLACES = {
+    f"distance.{name}_m": [
+        source.format(axis)
+        for source in ("truth.{}_deg", f"ground.{place}.{{}}")
+        for axis in ("latitude", "longitude")
+    ]
+    for name, place in (
+        ("estimate", "navigation"),
+        ("home", "home"),
+        ("target", "navigation.target"),
+    )
+}
 _TRUTH = [
     (f"truth.{field.name}", field.name)
     for field in dataclasses.fields(FlightState)
@@ -201,21 +212,16 @@ def _mavlink(
 
 
 def _distances(values: Values) -> Iterable[tuple[str, float]]:
-    for name, place in _PLACES.items():
-        degrees = [
-            value
-            for source in ("truth.{}_deg", f"ground.{place}.{{}}")
-            for axis in ("latitude", "longitude")
-            if isinstance(value := values.get(source.format(axis)), float)
-        ]
+    for name, sources in _PLACES.items():
+        degrees = [each for key in sources if isinstance(each := values.get(key), float)]
         if len(degrees) == 4:
-            yield f"distance.{name}_m", distance_m(*degrees)
+            yield name, distance_m(*degrees)
 
 
 def _flat(prefix: str, values: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
     for key, value in values.items():
         name = f"{prefix}.{key}"
-        if isinstance(value, Mapping):
+        if isinstance(value, dict):
             yield from _flat(name, value)
         elif isinstance(value, list | tuple):
             yield name, ", ".join(map(str, value))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
@@ -140,6 +141,18 @@ class StickTimeline:
             if time_s >= move.begin_s - 1e-9:
                 return move.at_us(time_s)
         return INITIAL_US[channel]
+
+    def still_until_s(self, time_s: float) -> float:
+        """Return when a pulse changes next after ``time_s``: that time itself if one is moving."""
+        next_s = math.inf
+        for moves in self._moves.values():
+            for move in moves:
+                begin_s = move.begin_s - 1e-9
+                if begin_s > time_s:
+                    next_s = min(next_s, begin_s)
+                elif move.end_s > time_s:
+                    return time_s
+        return next_s
 
     def pulses_us(self, time_s: float) -> dict[str, float]:
         return {channel: self.pulse_us(channel, time_s) for channel in CHANNELS}

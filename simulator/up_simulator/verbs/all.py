@@ -17,10 +17,10 @@ from typing import TextIO
 from up.config import ConfigErrors
 from up.fields import printable
 from up.output import StatusLine, print_problems
+from up.system.death_signal import request_death_signal
 from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.betaflight.board import find_program
 from up_simulator.firmware.build import BoardUnavailableError
-from up_simulator.harness.child import request_death_signal
 from up_simulator.harness.two_paths import PathsUnavailableError, check_paths
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY

@@ -39,7 +39,7 @@ examples:
   up-sim prove --thorough
       at least 500 flights with drawn wind, turbulence and failures of the GPS, both controllers
 
-Ctrl-C ends it with what is known. Exit status: 0 all held, 1 something did not, 2 wrong input.
+Ctrl-C ends it with the results so far. Exit status: 0 all held, 1 something did not, 2 wrong input.
 
 failures:
 """

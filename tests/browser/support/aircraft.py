@@ -58,8 +58,8 @@ def keep_plans(aircraft, answers, folder, home):
 
         return answered
 
-    aircraft.data = {**aircraft.data, **plans.telemetry}
     answers.update({name: shown(answer) for name, answer in plans.answers.items()})
+    aircraft.data = {**aircraft.data, **plans.telemetry}
 
 
 def refusal(reason):

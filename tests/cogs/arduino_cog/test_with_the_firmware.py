@@ -254,7 +254,7 @@ def periods_ms(board, letter, since):
 
 
 RESTARTED = 3
-"""A period that is requested again, without an answer in time on a busy machine, begins anew."""
+"""A period that is requested again, without an answer in time on a busy machine, begins again."""
 
 
 def off(found_ms, wanted_ms, by_ms):

@@ -241,7 +241,7 @@ def test_the_end_of_the_program_waits_for_no_pause(flight):
     assert flight.numbers == list(range(5010))
 
 
-# What is synced
+# Synchronised data
 
 
 def test_it_is_forced_onto_the_disk_every_second_and_at_the_end(flight):

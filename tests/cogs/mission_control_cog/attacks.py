@@ -184,7 +184,7 @@ async def fake_ack(s):
 
 
 async def old_telemetry(s):
-    """Frames of before are repeated as if they were live."""
+    """Old frames are repeated as if they were live."""
     await s.ground.ready()
     await until(lambda: s.ground.frames >= 4)
     await hold_down(s)

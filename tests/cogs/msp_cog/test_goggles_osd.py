@@ -164,7 +164,7 @@ def test_only_what_changed_is_sent_and_lost_bytes_are_repaired(rig):
 
 
 def test_bytes_are_bounded_whatever_changes_or_is_requested(tmp_path):
-    # At the most of them the first screen goes out at once, and whole.
+    # With the highest rate the whole first screen is sent in one step.
     rig = OsdRig(tmp_path, "grid: 53x20\nbytes_per_s: 10000\n")
     rig.advance(0.4)
     assert rig.goggles.row(6) == " GS 15M/S".ljust(43) + "ALT 123M"

@@ -53,7 +53,13 @@ def test_a_flight_during_its_recording(log, flights):
     with path.open("ab") as recorder:
         fcntl.flock(recorder, fcntl.LOCK_EX)
         assert log("list").out.splitlines()[1].endswith("being recorded")
+        assert "log_damaged" not in codes_of_info(log)
     assert log("list").out.splitlines()[1].endswith("cut off")
+    assert "log_damaged" in codes_of_info(log)
+
+
+def codes_of_info(log) -> list[str]:
+    return [each["code"] for each in json.loads(log("info", "1", "--json").out)["findings"]]
 
 
 def test_a_wrong_clock(log, flights):

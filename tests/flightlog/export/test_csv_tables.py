@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up_flightlog.export.csv_table import cell, columns_of, flat, topic_rows, wide_rows
+from up_flightlog.export.csv_table import cell, flat, topic_lines, wide_lines
 from up_flightlog.read.flight_log import LoggedMessage
 
 SCALARS = (
@@ -24,20 +24,32 @@ DATA = st.dictionaries(
 )
 
 
-def read_again(rows):
-    """Through a file and Python's own reader."""
-    text = io.StringIO(newline="")
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    written = text.getvalue().encode().decode()
-    return list(csv.reader(io.StringIO(written, newline=""), strict=True)), written
+def read_again(lines):
+    """Through a file and Python's own reader, whose writer writes the same."""
+    written = "".join(lines).encode().decode()
+    rows = list(csv.reader(io.StringIO(written, newline=""), strict=True))
+    again = io.StringIO(newline="")
+    csv.writer(again, lineterminator="\n").writerows(rows)
+    assert again.getvalue() == written
+    return rows, written
+
+
+def topic(messages, start_unix_s=1.7e9):
+    return read_again(topic_lines(messages, start_unix_s, io.StringIO(newline="\n")))
+
+
+def wide(messages, length_s, rate_hz, start_unix_s=1_700_000_000):
+    spool = io.StringIO(newline="\n")
+    return read_again(wide_lines(messages, start_unix_s, length_s, rate_hz, spool))[0]
 
 
 @settings(deadline=None)
 @given(st.lists(DATA, min_size=1, max_size=6))
 def test_a_message_is_a_row_and_a_row_a_line(contents):
     messages = [LoggedMessage("a", at / 10, data) for at, data in enumerate(contents)]
-    paths = columns_of(messages).get("a", [])
-    rows, written = read_again(topic_rows(messages, paths, 1.7e9))
+    rows, written = topic(messages)
+    paths = list(dict.fromkeys(path for each in messages for path, _ in flat(each.data)))
+    assert rows[0][2:] == [cell(path) for path in paths]
     assert len(rows) == len(messages) + 1 == len(written.splitlines())
     assert all(len(row) == len(paths) + 2 for row in rows)
     for message, row in zip(messages, rows[1:], strict=True):
@@ -46,6 +58,7 @@ def test_a_message_is_a_row_and_a_row_a_line(contents):
         for path, shown in zip(paths, row[2:], strict=True):
             value = found.get(path)
             if isinstance(value, bool | str) or value is None:
+                assert shown == cell(value)
                 continue
             assert float(shown) == value if isinstance(value, float) else int(shown) == value
 
@@ -82,8 +95,7 @@ FLIGHT = [
 
 
 def test_a_wide_table_has_the_newest_values_and_their_ages():
-    rows, _ = read_again(wide_rows(FLIGHT, columns_of(FLIGHT), 1_700_000_000, 1.5, 2))
-    assert rows == [
+    assert wide(FLIGHT, 1.5, 2) == [
         [
             *("time_s", "time", "attitude.roll", "attitude.pitch", "attitude.age_s"),
             *("battery.level", "battery.age_s"),
@@ -97,5 +109,55 @@ def test_a_wide_table_has_the_newest_values_and_their_ages():
 
 @pytest.mark.parametrize("rate_hz", [0.1, 1, 7, 100])
 def test_the_rate_makes_the_rows(rate_hz):
-    rows = list(wide_rows(FLIGHT, columns_of(FLIGHT), 0, 10.0, rate_hz))
-    assert len(rows) == 1 + int(10 * rate_hz) + 1
+    assert len(wide(FLIGHT, 10.0, rate_hz)) == 1 + int(10 * rate_hz) + 1
+
+
+def test_cells_that_appear_later_are_empty_before_and_keep_their_place():
+    messages = [
+        LoggedMessage("a", 0.0, {}),
+        LoggedMessage("a", 1.0, {"x": {"y": 1}}),
+        LoggedMessage("b", 2.0, {"text": 'one, "two"'}),
+        LoggedMessage("a", 2.0, {"z": 2, "x": {"y": 3}}),
+        LoggedMessage("a", 3.0, {"x": {"y": None}}),
+        LoggedMessage("a", 3.5, {"last": True}),
+        LoggedMessage("c", 3.6, {"last": True}),
+    ]
+    rows = wide(messages, 3.6, 1)
+    assert rows[0][2:] == [
+        "a.x.y",
+        "a.z",
+        "a.last",
+        "a.age_s",
+        "b.text",
+        "b.age_s",
+        "c.last",
+        "c.age_s",
+    ]
+    assert [row[2:] for row in rows[1:]] == [
+        ["", "", "", "0.000", "", "", "", ""],
+        ["1", "", "", "0.000", "", "", "", ""],
+        ["3", "2", "", "0.000", 'one, "two"', "0.000", "", ""],
+        ["", "", "", "0.000", 'one, "two"', "1.000", "", ""],
+    ]
+
+
+def test_equal_keys_in_other_maps_are_other_cells():
+    messages = [
+        LoggedMessage("a", 0.0, {"x": {"y": 1}, "z": 2}),
+        LoggedMessage("a", 1.0, {"x": {"y": 3, "z": 4}}),
+        LoggedMessage("a", 2.0, {"z": 5, "x": {"y": 6}}),
+    ]
+    rows, _ = topic(messages)
+    assert [row[2:] for row in rows] == [
+        ["x.y", "z", "x.z"],
+        ["1", "2", ""],
+        ["3", "", "4"],
+        ["6", "5", ""],
+    ]
+    rows, _ = topic(
+        [
+            LoggedMessage("a", 0.0, {"a": 1, "b": {"c": {}}}),
+            LoggedMessage("a", 1.0, {"a": {"b": {"c": 2}}}),
+        ]
+    )
+    assert [row[2:] for row in rows] == [["a", "a.b.c"], ["1", ""], ["", "2"]]

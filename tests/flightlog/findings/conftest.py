@@ -1,11 +1,11 @@
-"""Flights for the detectors."""
+"""Flights for the checks."""
 
 import pytest
 
 from tests.flightlog.flights import (
     FlightMaker,
 )
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 
 
 @pytest.fixture

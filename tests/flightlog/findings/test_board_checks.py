@@ -17,7 +17,7 @@ from tests.flightlog.flights import (
     status,
 )
 from tests.flightlog.flights import FlightStateCommand as State
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 
 ARMED = State("FBW", True, False, False)
 
@@ -51,6 +51,14 @@ def test_lost_channels_are_named(maker, only):
     assert (finding.time_s, finding.level, finding.code) == (2.0, "warning", "channels_lost")
     assert finding.subject == "aux1, aux2"
     assert finding.length_s == pytest.approx(1.0)
+
+
+def test_an_impossible_validity_of_a_damaged_log_is_no_loss(maker, found):
+    maker.every(0, 2, 0.1, rx(ALL_VALID))
+    for number, valid in enumerate((64, -1, 0.5, "0", None)):
+        maker.add(2.0 + number / 10, "up.rx.update", valid=valid)
+    maker.every(3, 5, 0.1, rx(ALL_VALID))
+    assert found() == []
 
 
 def test_receiver_lost_by_the_status_where_no_inputs_are_logged(maker, found):

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tests.flightlog.flights import BOARD, PHONE, FlightMaker, OrientationCommand
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.summary import summarise
 

@@ -9,7 +9,7 @@ from tests.flightlog.flights import (
     TelemetryCommand,
 )
 from tests.flightlog.flights import FlightStateCommand as State
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 
 ARMED = State("FBW", True, False, False)
 

@@ -13,7 +13,7 @@ from tests.flightlog.flights import (
 )
 from tests.flightlog.flights import FlightStateCommand as State
 from up.commands.answer_commands import CommandAnsweredCommand
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 
 ARMED = State("FBW", True, False, False)
 

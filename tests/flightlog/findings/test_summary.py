@@ -15,10 +15,12 @@ from tests.flightlog.flights import (
 from tests.flightlog.logs import START_NS
 from up.commands.board_schema import VETOES
 from up.earth import distance_m
+from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.summary import Mark, ModeSpan, summarise
 from up_flightlog.read.spans import Span, duration_text, joined, spans_of
 from up_flightlog.read.track_statistics import fixes, track_statistics
 from up_flightlog.report.figures import figures_of
+from up_flightlog.report.report_data import bands_of
 
 
 def test_a_flight_on_one_page(tmp_path):
@@ -58,6 +60,29 @@ def test_a_flight_on_one_page(tmp_path):
     assert found.gaps_s["orientation"] == pytest.approx(0.1)
     assert found.gaps_s["battery"] == pytest.approx(10.0)
     assert "heading" not in found.gaps_s
+
+
+def test_while_the_board_follows_the_mode_of_the_raspberry_pi_counts(tmp_path):
+    maker = FlightMaker()
+    for time_s, mode in ((0, "FBW"), (2, "SETPOINT"), (8, "RETURN"), (9, "FBW"), (10, "FBW")):
+        maker.put(time_s, FlightStateCommand(mode, True, mode != "FBW", mode == "RETURN"), BOARD)
+    for time_s, mode in ((1.9, None), (2.1, "LOITER"), (4, None), (5, "RETURN"), (8.1, "RETURN")):
+        maker.put(time_s, TelemetryCommand({"flight_control": {"mode": mode}}, 1))
+    maker.put(9.1, TelemetryCommand({"flight_control": {"mode": "RETURN"}}, 1))
+    context = FlightContext(maker.log(tmp_path))
+    assert summarise(context.log, context).modes == [
+        ModeSpan("FBW", 0.0, 2.0),
+        ModeSpan("LOITER", 2.0, 5.0),
+        ModeSpan("RETURN", 5.0, 9.0),
+        ModeSpan("FBW", 9.0, 10.0),
+    ]
+    assert [(each.name, each.begin_s, each.end_s) for each in bands_of(context)] == [
+        ("FBW", 0.0, 2.0),
+        ("LOITER", 2.0, 5.0),
+        ("RETURN", 5.0, 8.0),
+        ("failsafe", 8.0, 9.0),
+        ("FBW", 9.0, 10.0),
+    ]
 
 
 def test_modes_with_their_times(tmp_path):

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.ground.web.hub import KEY, Bench
@@ -113,7 +113,6 @@ _KEYS = st.sampled_from(
 _FIELDS = st.dictionaries(_KEYS, _VALUES | st.sampled_from(["kite", "request", "give"]))
 
 
-@settings(max_examples=120, deadline=None)
 @given(st.lists(st.tuples(_KINDS, _FIELDS), max_size=5))
 def test_whatever_a_page_says_is_answered_or_done(said):
     bench = Bench(key=KEY)

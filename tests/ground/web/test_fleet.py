@@ -144,7 +144,7 @@ def gull(proxy):
 
 @pytest.fixture
 def foreign(proxy):
-    """Fly an aircraft of somebody else at the same proxy."""
+    """Fly an aircraft of another owner at the same proxy."""
     with Aircraft(proxy.airborne_port, hello=b"UP1 aircraft=foreign\n") as aircraft:
         yield aircraft
 

@@ -1,10 +1,12 @@
 """Three proxies as one cluster, each with its own NATS server first in its list."""
 
 import select
+import signal
 import socket
+import threading
 import time
 from collections import deque
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager, suppress
 
 from tests.proxy.program import Client, Program, accepted
 from tests.support.scrape import scrape
@@ -26,23 +28,30 @@ class Nodes:
         self.servers = servers
         self.folder = folder
         self.more = more
-        self.programs = [self._program(number) for number in range(count)]
         self._stack = ExitStack()
+        self.programs = [self._program(number) for number in range(count)]
 
     def _program(self, number):
         urls = self.servers.urls.split(",")
         urls = ",".join([*urls[number:], *urls[:number]])
         text = f"cluster:\n  servers: {urls}\n{self.more}"
         prefix = self.servers.prefixes[number % len(self.servers.prefixes)]
-        return Program(self.folder / f"proxy{number}", text, prefix=prefix)
+        program = Program(self.folder / f"proxy{number}", text, prefix=prefix)
+        self._stack.push(program)
+        return program
 
     def __enter__(self):
-        for program in self.programs:
-            self._stack.enter_context(program)
-        until(lambda: all(map(self.is_ready, self.programs)), "the cluster", READY_S)
+        try:
+            until(lambda: all(map(self.is_ready, self.programs)), "the cluster", READY_S)
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
+        for program in self.programs:
+            if program.process.poll() is None:
+                program.process.send_signal(signal.SIGCONT)
         self._stack.close()
 
     @staticmethod
@@ -51,8 +60,7 @@ class Nodes:
 
     def start(self, number):
         """Begin to start a proxy again, at new ports."""
-        program = self.programs[number] = self._program(number)
-        self._stack.push(program)
+        self.programs[number] = self._program(number)
 
     def restart(self, number):
         """Start a proxy again, and wait until it serves."""
@@ -105,6 +113,28 @@ def relayed(aircraft, ground, mark):
     ground.expect(f'"down": "{mark}"')
     ground.say(f'{{"up": "{mark}"}}\n')
     aircraft.expect(f'"up": "{mark}"')
+
+
+@contextmanager
+def alive(*clients):
+    """Send heartbeats of each client, which else is away after 3 s, and close it at the end."""
+    ended = threading.Event()
+
+    def tick():
+        while not ended.wait(0.5):
+            for client in clients:
+                with suppress(OSError):
+                    client.say("\n")
+
+    thread = threading.Thread(target=tick, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+        for client in clients:
+            client.close()
 
 
 def refusal(port, hello):

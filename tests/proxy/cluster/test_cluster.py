@@ -9,6 +9,7 @@ import pytest
 from tests.proxy.cluster.nodes import (
     Nodes,
     RawNats,
+    alive,
     heard_until,
     is_closed_after,
     packed,
@@ -104,13 +105,13 @@ def test_a_hung_node_finds_its_aircraft_elsewhere(nodes):
     hung, ground, air_token, _ = nodes.pair(0, 1, "hung")
     nodes.programs[0].process.send_signal(signal.SIGSTOP)
     new, _ = nodes.aircraft(2, "hung", air_token)
-    with hung, ground, new:
+    with hung, alive(ground, new):
         hung.say('{"down": "of the past"}\n')
         new.expect("watch grounds=1")
         relayed(new, ground, "beside the hung node")
         nodes.programs[0].process.send_signal(signal.SIGCONT)
         # Its heartbeats keep it from the end of an idle connection.
-        until(lambda: is_closed_after(hung, "\n"), "the end of the old connection", 20.0)
+        until(lambda: is_closed_after(hung, "\n"), "the end of the old connection")
         new.say('{"down": "last"}\n')
         assert "past" not in heard_until(ground, "last")
 
@@ -200,34 +201,27 @@ def test_a_write_without_an_answer_keeps_control(nodes):
 
 
 def test_an_aircraft_that_left_before_its_lease_came_may_return(nodes):
-    servers, port = nodes.servers, nodes.programs[0].airborne_port
+    port = nodes.programs[0].airborne_port
     until(lambda: nodes.figure(0, "leases") == 0, "the end of the aircraft before")
-    for number in range(3):
-        servers.pause(number)
-    with Client(port, "UP1 aircraft=hasty\n"):
-        until(lambda: nodes.connections(0) == 1, "the connection")
-    until(lambda: nodes.connections(0) == 0, "its end")
-    for number in range(3):
-        servers.resume(number)
+    with nodes.servers.paused(0, 1, 2):
+        with Client(port, "UP1 aircraft=hasty\n"):
+            until(lambda: nodes.connections(0) == 1, "the connection")
+        until(lambda: nodes.connections(0) == 0, "its end")
     until(lambda: nodes.figure(0, "leases") == 1, "the lease")
     nodes.aircraft(0, "hasty")[0].close()
 
 
 def test_pairs_of_one_node_go_on_without_nats(nodes):
     aircraft, ground, *_ = nodes.pair(1, 1, "alone")
-    servers = nodes.servers
-    for number in range(3):
-        servers.pause(number)
-    until(lambda: nodes.figure(1, "connected") == 0, "the loss of NATS")
-    with aircraft, ground:
-        relayed(aircraft, ground, "without NATS")
-        assert refusal(nodes.programs[1].airborne_port, "UP1 aircraft=new\n") == "cluster"
-        ground.say("UP1 seat release\nUP1 seat request\n")
-        until(lambda: nodes.control_refused(1), "the refusal of control")
-        aircraft.say('{"down": "not granted"}\n')
-        assert "seat command" not in heard_until(ground, "not granted")
-        for number in range(3):
-            servers.resume(number)
+    with alive(aircraft, ground):
+        with nodes.servers.paused(0, 1, 2):
+            until(lambda: nodes.figure(1, "connected") == 0, "the loss of NATS")
+            relayed(aircraft, ground, "without NATS")
+            assert refusal(nodes.programs[1].airborne_port, "UP1 aircraft=new\n") == "cluster"
+            ground.say("UP1 seat release\nUP1 seat request\n")
+            until(lambda: nodes.control_refused(1), "the refusal of control")
+            aircraft.say('{"down": "not granted"}\n')
+            assert "seat command" not in heard_until(ground, "not granted")
         until(lambda: nodes.figure(1, "connected") == 1, "NATS again")
         until(
             lambda: refusal(nodes.programs[2].airborne_port, "UP1 aircraft=alone\n") == "taken",

@@ -49,6 +49,7 @@ async def partition(network, traffic, cut):
     assert not second.connects
     second.stop()
     await until(lambda: new.is_open, LIMIT_S)
+    await until(lambda: refused.refusals, LIMIT_S)
     await sleep(max(0.0, began_s + PARTITION_S - time.monotonic()))
     assert refused.refusals.keys() == {"cluster"}
     assert not refused.connects

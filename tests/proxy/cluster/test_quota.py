@@ -1,12 +1,9 @@
 """The quota of one tenant over two proxies, beside another tenant on the same NATS server."""
 
-import threading
-from contextlib import contextmanager, suppress
-
 import pytest
 
 from tests.cluster.fleet.up_fleet import UpFleet
-from tests.proxy.cluster.nodes import Nodes, refusal, relayed
+from tests.proxy.cluster.nodes import Nodes, alive, refusal, relayed
 from tests.support.nats_servers import NatsServers
 from tests.support.scrape import scrape
 from tests.support.waiting import until
@@ -21,28 +18,6 @@ def server(tmp_path_factory):
 
 def usage(nodes, node, kind):
     return scrape(nodes.programs[node].metrics_port)["up_proxy_tenant_usage", kind]
-
-
-@contextmanager
-def alive(*clients):
-    """Send the tick of each client, and close it at the end."""
-    ended = threading.Event()
-
-    def tick():
-        while not ended.wait(0.5):
-            for client in clients:
-                with suppress(OSError):
-                    client.say("\n")
-
-    thread = threading.Thread(target=tick, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        ended.set()
-        thread.join()
-        for client in clients:
-            client.close()
 
 
 def tenant(server, folder, name, count, quota):
@@ -90,7 +65,7 @@ def test_a_full_quota_refuses_neither_a_drained_aircraft_nor_the_ground_that_get
             with alive(owner):
                 owner.expect("seat command")
                 assert refusal(port, "UP1 aircraft=glider-1 seat=command\n") == "quota"
-                fleet = UpFleet(tmp_path / "fleet", server.urls, "tenant: used\nreplicas: 1\n")
+                fleet = UpFleet(tmp_path / "fleet", server.urls, "tenant: used\n")
                 place = fleet.ask("where", "glider-1")["places"][0]
                 assert fleet.ask("drain", place["id"])["left"] == ["glider-1"]
                 assert refusal(nodes.programs[1].airborne_port, "UP1 aircraft=b\n") == "quota"
@@ -98,11 +73,17 @@ def test_a_full_quota_refuses_neither_a_drained_aircraft_nor_the_ground_that_get
 
 
 def check_shown(server, folder):
-    fleet = UpFleet(folder / "fleet", server.urls, "tenant: full\nreplicas: 1\n")
-    shown = fleet.ask("usage")
+    fleet = UpFleet(folder / "fleet", server.urls, "tenant: full\n")
+
+    def with_bytes():
+        # The node counts them now and then.
+        shown = fleet.ask("usage")
+        return shown if shown["tenant"]["usage"]["hour_bytes"] > 0 else None
+
+    shown = until(with_bytes, "the bytes of the hour")
     assert {each["state"] for m in shown["members"] for each in m["guests"]} == {"guest"}
     tenant = shown["tenant"]
     assert (tenant["name"], tenant["quota"]) == ("full", {"aircraft": 1, "grounds": 2})
-    assert tenant["usage"]["aircraft"] >= 1 and tenant["usage"]["hour_bytes"] > 0
+    assert tenant["usage"]["aircraft"] >= 1
     lines = [line.split() for line in usage_table(shown)]
     assert [(line[0], line[-1]) for line in lines if line[1:2] == ["grounds"]] == [("full", "2")]

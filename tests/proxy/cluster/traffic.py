@@ -135,6 +135,8 @@ class Peer(ClientFactory):
             self.clientConnectionFailed(None, None)
 
     def buildProtocol(self, _):  # noqa: N802 - Twisted's name
+        if self._is_stopped:
+            return None
         self._link = Link(self)
         return self._link
 

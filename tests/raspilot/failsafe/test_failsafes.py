@@ -83,7 +83,7 @@ def test_the_uplink_is_lost_and_the_aircraft_returns_until_the_ground_decides_ag
     assert rig.seen() == (["uplink_lost"], "uplink_lost", "RETURN")
     rig.ground.is_there = True
     rig.fly(1.0)
-    assert rig.seen() == ([], "uplink_lost", "RETURN"), "it goes on when the link is back"
+    assert rig.seen() == ([], "uplink_lost", "RETURN"), "it continues when the link is back"
     rig.outcome(FlightModeCommand("LOITER"))
     rig.fly(1.0)
     assert rig.seen() == ([], None, "LOITER")

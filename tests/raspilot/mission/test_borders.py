@@ -4,7 +4,7 @@ import math
 from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from raspilot.mission.borders import crosses, inside, leads_straight, local_borders, margin_m
@@ -124,7 +124,6 @@ polygons = st.builds(
 circles = st.builds(circle, coordinates, coordinates, st.floats(30, 400), st.booleans())
 
 
-@settings(max_examples=150, deadline=None)
 @given(st.lists(polygons | circles, min_size=1, max_size=4), points, points)
 def test_distance_and_legs_agree_for_any_fence(borders, a, b):
     local = local_borders(borders, FRAME)

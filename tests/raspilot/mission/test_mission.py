@@ -271,7 +271,7 @@ class TestRestart:
         assert again.order == [1]
         assert again.plans.progress.item == 3, "no other jump"
         flown_s = again.passed[0][1].time_s - track[0].time_s
-        assert flown_s < 35, "what is left of the turn, and the way to the exit"
+        assert flown_s < 35, "the rest of the turn, and the way to the exit"
 
     def test_the_line_is_the_same_although_the_aircraft_has_left_it(self, tmp_path):
         rig = MissionRig(tmp_path, [NORTH, EAST, END]).enter()

@@ -36,7 +36,7 @@ def test_the_delay_of_the_fixes_is_compensated(calm):
     pairs = Flight(calm).pairs(40)
     assert rms(off_m(*pair) for pair in pairs) < 4.0
     late = Flight(calm, change=lambda fix: replace(fix, time_s=fix.time_s + 0.8))
-    assert rms(off_m(*pair) for pair in late.pairs(40)) > 6.0, "as if the fixes were of now"
+    assert rms(off_m(*pair) for pair in late.pairs(40)) > 6.0, "as if the fixes were current"
 
 
 def test_position_and_velocity_in_wind_and_turbulence(windy_flight):

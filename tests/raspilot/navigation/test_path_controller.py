@@ -303,7 +303,6 @@ demands = st.builds(
 )
 
 
-@settings(max_examples=300, deadline=None)
 @given(demands, st.lists(states, min_size=1, max_size=4), finite)
 def test_limits_are_kept_for_any_finite_state(demand, flown, dt_s):
     controller = PathController(CONFIG)

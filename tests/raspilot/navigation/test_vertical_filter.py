@@ -44,7 +44,7 @@ def test_held_it_keeps_the_error_of_the_receiver_at_that_time():
     for minutes in range(1, 31):
         level.fly(60, 0.0)
         assert abs(level.error_m - 6.0) < 60 * minutes * WEATHER_M_S + 0.2
-    assert level.filter.sd_at(level.time_s) < 2.0
+    assert level.filter.state_at(level.time_s, 0.0)[2] < 2.0
 
 
 def test_not_held_it_follows_the_mean_of_the_fixes():
@@ -144,15 +144,15 @@ def rising(until_s):
 
 def test_without_fixes_the_climb_error_returns_to_zero():
     lost = rising(40)
-    assert lost.climb_error_at(40.0) > 0.5
-    assert lost.climb_error_at(110.0) < 0.01
+    assert lost.state_at(40.0, 0.0)[1] > 0.5
+    assert lost.state_at(110.0, 0.0)[1] < 0.01
     risen_m = lost.altitude_at(110.0, 0.0) - lost.altitude_m
-    assert risen_m == pytest.approx(CLIMB_TAU_S * lost.climb_error_at(40.0), rel=0.02)
+    assert risen_m == pytest.approx(CLIMB_TAU_S * lost.state_at(40.0, 0.0)[1], rel=0.02)
 
 
 def test_the_deviation_without_fixes_grows_as_rising_air_displaces_an_aircraft():
     lost = rising(40)
-    deviations = [lost.sd_at(40.0 + seconds) for seconds in (0.0, 30.0, 120.0)]
+    deviations = [lost.state_at(40.0 + seconds, 0.0)[2] for seconds in (0.0, 30.0, 120.0)]
     assert deviations[0] < 4.0
     assert deviations[1] == pytest.approx(28.0, abs=5.0)
     assert deviations[2] < 120.0, "not as that of a climb error that stays"
@@ -165,7 +165,8 @@ def test_one_step_predicts_as_many_do():
     for each in (one, many):
         each._advance(60.0, 0.0)
     assert many.altitude_m == pytest.approx(one.altitude_m)
-    assert many.climb_error_at(60.0) == pytest.approx(one.climb_error_at(60.0))
+    assert many.state_at(60.0, 0.0)[1] == pytest.approx(one.state_at(60.0, 0.0)[1])
+    assert many.state_at(70.0, 3.0)[0] == many.altitude_at(70.0, 3.0)
     for row, other in zip(one._p, many._p, strict=True):
         assert row == pytest.approx(other)
 

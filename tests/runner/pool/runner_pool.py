@@ -46,7 +46,11 @@ class RunnerPool:
             self._stack.callback(runner.clean)
 
     def __enter__(self):
-        self.repair()
+        try:
+            self.repair()
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):

@@ -1,8 +1,9 @@
 import contextlib
 import json
+import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from up_runner.pool.messages import (
@@ -18,7 +19,8 @@ JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(), inner, max_size=3),
 )
-NAMES = st.sampled_from(["pid", "ports", "spawned", "host", "code", "text", "request", "key"])
+FIELDS = ("pid", "ports", "spawned", "host", "code", "text")
+NAMES = st.sampled_from([*FIELDS, "request", "key"])
 
 
 def through_json(fields):
@@ -36,10 +38,11 @@ def test_a_request_and_its_answer_arrive_as_they_were():
         assert decode_response("a", through_json(encode_response(response))) == response
 
 
-@given(st.dictionaries(NAMES, JSON))
-def test_any_other_answer_is_none(fields):
+@given(st.dictionaries(NAMES, JSON) | st.fixed_dictionaries(dict.fromkeys(FIELDS, JSON)))
+@example({**dict.fromkeys(FIELDS), "pid": math.inf})
+def test_any_fields_are_a_response(fields):
     response = decode_response("a", fields)
-    assert response.instance == "a"
+    assert response.pid is None or type(response.pid) is int
     with contextlib.suppress(MalformedRequest):
         decode_request(fields)
 

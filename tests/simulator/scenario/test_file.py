@@ -5,7 +5,7 @@ from dataclasses import fields
 
 import pytest
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.simulator.scenario.minimal import EXPECT, HEAD, scenario
@@ -343,7 +343,6 @@ def mutations(draw):
     return text
 
 
-@settings(max_examples=200, deadline=None)
 @given(mutations() | st.binary(max_size=200), st.text(max_size=12), st.text(max_size=12))
 def test_any_file_and_option_give_a_scenario_or_problems_with_places(text, key, value):
     data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")

@@ -13,7 +13,7 @@ from mcap.reader import make_reader
 
 from tests.simulator.scenario.minimal import log_of, scenario
 from tests.support.firmware import build_firmware
-from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.all_checks import findings
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import frames

@@ -1,7 +1,9 @@
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.simulator.scenario.minimal import scenario
-from up_simulator.scenario.sticks import StickTimeline
+from up_simulator.scenario.sticks import StickPoint, StickTimeline
 
 SWITCH = {"low": "ACRO", "middle": "FBW", "high": "AUTO"}
 
@@ -53,3 +55,24 @@ def test_a_move_continues_from_an_unfinished_one():
 def test_points_may_be_in_any_order():
     one = timeline("[{at_s: 2, elevator: 1}, {at_s: 1, elevator: -1}]")
     assert [one.pulse_us("elevator", at) for at in (0, 1, 2)] == [1500, 1000, 2000]
+
+
+@given(
+    points=st.lists(
+        st.builds(
+            StickPoint,
+            at_s=st.integers(0, 12).map(lambda tenths: tenths / 10),
+            over_s=st.sampled_from((0.0, 0.3, 1.0)),
+            ailerons=st.sampled_from((-1.0, 0.5)),
+        ),
+        max_size=5,
+    )
+)
+def test_the_pulses_are_still_until_the_time_that_it_names(points):
+    line = StickTimeline(tuple(points), SWITCH)
+    until_s, shown = 0.0, {}
+    for step in range(1000):
+        time_s = step * 0.004
+        if time_s >= until_s:
+            until_s, shown = line.still_until_s(time_s), line.pulses_us(time_s)
+        assert line.pulses_us(time_s) == shown

@@ -22,16 +22,15 @@ def tune(*arguments):
     return main(["tune", *(str(each) for each in arguments)])
 
 
-def test_one_axis_is_tuned_shown_and_written(bench, tmp_path, capsys):
+def test_one_axis_is_tuned_shown_and_written(bench, tmp_path, monkeypatch, capsys):
     pids = tmp_path / "new" / "pids.yml"
-    status = tune(
-        "--axis", "roll", "--quick", "--write", pids, "--pictures", tmp_path, "--processes", 1
-    )
+    monkeypatch.chdir(tmp_path)
+    status = tune("--axis", "roll", "--quick", "--write", pids, "--processes", 1)
     said = capsys.readouterr().out
     assert status == 0
     assert "roll in FBW" in said
     assert "->  rate" in said
-    assert (tmp_path / "glider-roll.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "run/tuning/glider-roll.png").read_bytes().startswith(b"\x89PNG")
     values = PIDS.parse(pids.read_bytes(), pids)
     assert f"ailerons: {{p: {values.rate.ailerons.p:g}, i: 0, d: 0}}" in said
     assert 0 < values.rate.ailerons.p < 6

@@ -18,19 +18,17 @@ RUNS = re.findall(r"<!-- run: up-sim -->\n```\n(.*?)```", TEXT, re.DOTALL)
 
 
 @pytest.mark.usefixtures("bench")
-@pytest.mark.parametrize("lines", RUNS)
-def test_the_commands_of_the_page_work(lines, tmp_path, monkeypatch, capsys):
+def test_the_commands_of_the_page_work(tmp_path, monkeypatch, capsys):
     build_firmware()
     monkeypatch.chdir(tmp_path)
-    for line in lines.splitlines():
+    tuned, flown = RUNS
+    # tests/tools/tuning/test_cli.py runs this one with more options.
+    assert tuned == "up-sim tune --axis roll --quick\n"
+    for line in flown.splitlines():
         program, *arguments = line.split()
         assert program == "up-sim"
         assert main(arguments) == 0, (line, capsys.readouterr())
     assert list((tmp_path / "run" / "tuning").glob("*.png"))
-
-
-def test_there_is_something_to_run():
-    assert len(RUNS) == 2
 
 
 def test_the_rules_of_the_page_are_those_of_the_code():

@@ -107,7 +107,7 @@ def test_from_the_index_with_a_version(environment, application, outside, index)
     assert (application / "config/lidar.yml").exists()
     asked = len(index.asked)
     assert gather(environment, application, environ=index.environ)[0]["changed"] is False
-    assert len(index.asked) == asked, "nothing to do asks nobody"
+    assert len(index.asked) == asked, "with nothing to do it asks no index"
 
     newer = Path(shutil.copytree(outside, application.parent / "newer"))
     setup = (newer / "setup.py").read_text()

@@ -237,7 +237,7 @@ def test_a_cogs_broken_command_costs_the_message_and_not_the_link(numbers):
 
 @dataclass(frozen=True, slots=True)
 class FarCommand(BaseCommand):
-    """A Command that somebody further away carries out."""
+    """A Command that another program carries out."""
 
     NAME: ClassVar[str] = "test.far"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})

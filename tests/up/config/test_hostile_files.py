@@ -1,13 +1,14 @@
 import os
 import sys
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.up.config.samples import LINK, PATH, Link, problems_of
-from up.config import ConfigErrors
+from up.config import ConfigErrors, nodes
 from up.config.problems import CODES
 
 SMALL = (
@@ -173,7 +174,6 @@ YAML_BITS = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=500, deadline=None)
 @given(st.lists(YAML_BITS, max_size=40).map("".join))
 def test_any_heap_of_yaml_gives_a_value_or_problems(text):
     is_value_or_config_errors(text.encode())
@@ -186,3 +186,28 @@ def test_any_text_even_with_surrogates_gives_a_value_or_problems(text):
         assert isinstance(LINK.parse(text, PATH), Link)
     except ConfigErrors as errors:
         assert all(str(problem).isprintable() for problem in errors.problems)
+
+
+PIECES = (
+    "key: ", "- ", "  ", "\n", "\n  ", "# c", "'q'", '"d"', "{a: b}", "[1, 2]", "a", "1.5", ":",
+    "|\n", "> \n", "---\n", "...\n", "'a\n b'", "a\n b", "{a: b,\n c: d}", "- - a\n", "a:\n- b\n",
+    "|-\n  x\n", "{", "}", "[", "]", ",", "é", '"\\n"', "? ", "%", "@", "!", "&a ", "*a", "\t",
+    "\r\n", "\u2028", "\x1f", "|#", "{i: }",
+)  # fmt: skip
+
+
+def nodes_and_problems(text):
+    found = []
+    return nodes.compose(text, lambda *problem: found.append(problem)), found
+
+
+@pytest.mark.skipif(nodes._LIBYAML is None, reason="this PyYAML is without libyaml")
+@given(st.lists(st.sampled_from(PIECES), max_size=9).map("".join))
+@example("? a\n")
+@example("[b?]")
+@example("---\n  ")
+@example("|#\n a")
+def test_a_file_means_the_same_with_libyaml_and_without(text):
+    quick = nodes_and_problems(text)
+    with patch.object(nodes, "_LIBYAML", None):
+        assert quick == nodes_and_problems(text)

@@ -10,6 +10,7 @@ from mcap.reader import SeekingReader, make_reader
 from mcap.stream_reader import StreamReader
 
 from tests.flightlog.logs import START_NS, LogMaker, small_log
+from up.flight_log.compression import compressor
 from up.flight_log.mcap_format import MAGIC
 from up.flight_log.mcap_writer import McapWriter
 from up.version import VERSION
@@ -83,6 +84,41 @@ def test_each_call_is_one_write_of_whole_records():
     assert writes[-1].endswith(MAGIC)
     messages = [m for _, _, m in make_reader(io.BytesIO(b"".join(writes))).iter_messages()]
     assert [(m.log_time, m.publish_time) for m in messages] == [(1, 1), (2, 1)]
+
+
+def test_chunks_hold_what_the_official_reader_finds_in_an_uncompressed_file():
+    def write(compress) -> tuple[bytearray, list[int]]:
+        out = bytearray()
+        writer = McapWriter(out.extend, compress=compress)
+        writer.start()
+        in_chunks = []
+        for number in range(200):
+            if number % 50 == 0:
+                writer.add_metadata(f"m{number}", {})
+                channel = writer.add_channel(f"t{number}", writer.add_schema("a", {}))
+            writer.message(channel, 1000 - number % 7, b'{"roll": %d}' % number)
+            if number % 20 == 19:
+                in_chunks.append(writer.end_chunk())
+        writer.finish()
+        return out, in_chunks
+
+    plain, none = write(None)
+    packed, in_chunks = write(compressor())
+    assert (sum(none), sum(in_chunks)) == (0, 200)
+    assert len(packed) < len(plain)
+    found = [
+        [(c.topic, m) for _, c, m in make_reader(io.BytesIO(each)).iter_messages(None)]
+        for each in (plain, packed)
+    ]
+    assert found[0] == found[1]
+    assert len(found[0]) == 200
+    list(StreamReader(io.BytesIO(packed), validate_crcs=True).records)
+    chunks = [each for each in StreamReader(io.BytesIO(packed), emit_chunks=True).records]
+    chunks = [each for each in chunks if type(each).__name__ == "Chunk"]
+    statistics = make_reader(io.BytesIO(packed)).get_summary().statistics
+    assert statistics.chunk_count == len(chunks) == 10
+    assert (statistics.message_start_time, statistics.message_end_time) == (994, 1000)
+    assert {(each.message_start_time, each.message_end_time) for each in chunks} == {(994, 1000)}
 
 
 def test_a_failed_write_does_not_count():

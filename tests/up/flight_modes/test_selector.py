@@ -8,7 +8,7 @@ import pytest
 
 from up.commands.orientation_command import OrientationCommand
 from up.commands.refusal import CommandRefusedError
-from up.flight_modes.demand import AttitudeDemand, Circle, PathDemand
+from up.flight_modes.demand import AttitudeDemand, Bank, Circle, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_state import Point
 from up.flight_modes.selector import DemandError, FlightModeSelector
@@ -119,6 +119,8 @@ def _computing(self, situation, dt_s):
         (lambda *_: AttitudeDemand(math.nan, 0.0), "demand_invalid"),
         (lambda *_: AttitudeDemand("5", 0.0), "demand_invalid"),
         (lambda *_: PathDemand(Circle(Point(0.0, math.inf), 50.0)), "demand_invalid"),
+        (lambda *_: PathDemand(Bank(math.nan)), "demand_invalid"),
+        (lambda *_: PathDemand(Bank(0.0), bank_limit_deg=math.nan), "demand_invalid"),
     ],
 )
 def test_a_mode_that_fails_is_replaced_in_the_same_step_until_it_is_selected_again(step, code):

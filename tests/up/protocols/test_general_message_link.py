@@ -80,7 +80,7 @@ async def receive_all(client, is_complete):
         received.extend(piece)
         return not piece or is_complete(received)
 
-    await until(read, what="the rest of what was sent")
+    await until(read, what="the rest of the sent lines")
     return bytes(received)
 
 

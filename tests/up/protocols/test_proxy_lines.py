@@ -5,7 +5,7 @@ import random
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from up.protocols.proxy_lines import (
@@ -119,7 +119,6 @@ WORDS = st.sampled_from(
 LINES = st.one_of(st.binary(max_size=600), st.lists(WORDS | st.binary(max_size=4)).map(b"".join))
 
 
-@settings(max_examples=2000, deadline=None)
 @given(LINES, st.sampled_from(list(Side)))
 def test_any_bytes_give_a_hello_or_a_refusal_of_one_line(line, side):
     try:

@@ -1,7 +1,7 @@
 """Which source is followed."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from up.providers.source_arbiter import RETURN_AFTER_S, SourceArbiter
@@ -104,7 +104,6 @@ def test_of_two_that_could_take_over_the_better_does(rig):
 SOURCES = [("low", 0), ("middle", 1), ("high", 2)]
 
 
-@settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(st.sampled_from(SOURCES), st.floats(0, 1)), min_size=1, max_size=200))
 def test_whatever_comes_one_source_is_followed_and_switches_are_rare(events):
     rig, now_s, newest_s = Rig(), 0.0, {}

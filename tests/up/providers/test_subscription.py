@@ -50,7 +50,7 @@ class Rig:
         self.up.command_executor.execute_command(command, origin)
 
     def got(self):
-        """Return what was reported since the last call."""
+        """Return the reports since the last call."""
         got = self.up.get_module(Listener).got
         news = list(got)
         got.clear()

@@ -6,7 +6,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from up.system import gc_scheduler
-from up.system.gc_scheduler import FULL_COLLECTION_EVERY, GcScheduler
+from up.system.gc_scheduler import FULL_COLLECTION_EVERY, GcScheduler, frozen_imports
 
 
 @pytest.fixture
@@ -19,6 +19,18 @@ def rounds(monkeypatch):
 @pytest.fixture
 def clock():
     return Clock()
+
+
+def test_what_is_imported_is_not_collected_even_where_the_import_fails():
+    before = gc.get_freeze_count()
+    try:
+        with pytest.raises(ImportError), frozen_imports():
+            assert not gc.isenabled()
+            raise ImportError
+        assert gc.isenabled()
+        assert gc.get_freeze_count() > before
+    finally:
+        gc.unfreeze()
 
 
 def test_it_takes_over_and_gives_back(clock):

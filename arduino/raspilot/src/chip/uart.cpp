@@ -23,7 +23,7 @@ static inline uint8_t after(uint8_t place, uint8_t size) {
   return place == size ? 0 : place;
 }
 
-/** The place `at` places behind what is queued. */
+/** The place `at` places behind the queued bytes. */
 static uint8_t tx_place(uint8_t at) {
   const uint8_t place = static_cast<uint8_t>(tx_head + at);
   return place < TX_SIZE ? place : static_cast<uint8_t>(place - TX_SIZE);

@@ -59,7 +59,7 @@ OUT_OF_LINE int16_t sum_of(int16_t a, int16_t b) {
 
 OUT_OF_LINE int16_t difference_of(int16_t a, int16_t b) {
   const uint16_t other = static_cast<uint16_t>(b);
-  // Its complement has the sign of what is added.
+  // Its complement has the sign of the addend.
   return within(static_cast<uint16_t>(static_cast<uint16_t>(a) - other), a,
                 static_cast<uint16_t>(~other));
 }

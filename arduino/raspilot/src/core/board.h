@@ -11,7 +11,7 @@ namespace board {
 
 /** Bytes that the serial line's output buffer takes now. */
 uint8_t serial_room();
-/** Puts a byte `at` places behind what is queued; the caller has checked serial_room() before. */
+/** Puts a byte `at` places behind the queued bytes; the caller has checked serial_room() before. */
 void serial_put(uint8_t at, uint8_t byte);
 /** Queues the first `count` bytes that were put. */
 void serial_send(uint8_t count);

@@ -49,7 +49,7 @@ class RefusalLimit {
  private:
   static constexpr uint8_t PLACES = 8;
 
-  /** What is left of each second, in steps of 65.5 ms. */
+  /** The rest of each second, in steps of 65.5 ms. */
   uint8_t left_[PLACES] ZEROED;
   uint8_t checked_at_ ZEROED;
 };

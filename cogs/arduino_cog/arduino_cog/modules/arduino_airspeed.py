@@ -44,8 +44,8 @@ class ArduinoAirspeed(BaseStartedModule):
 def payload_of(state: NavigationState) -> bytes | None:
     """Return the payload of `A`; None without an airspeed that a fix has measured.
 
-    That of the estimator's model is no measurement: it follows the board's pitch, whose error the
-    board would find confirmed.
+    The airspeed of the estimator's model is not a measurement: it follows the board's pitch, whose
+    error the board would find confirmed.
     """
     airspeed_m_s = state.measured_airspeed_m_s
     if airspeed_m_s is None or state.wind_sd_m_s > MAX_WIND_SD_M_S:

@@ -33,6 +33,7 @@ DEFERRED_IMPORTS = (
     "up.commands.telemetry_schema",
     "up.flight_log.command_schema",
     "up.flight_log.mcap_format",
+    "up.flight_log.compression",
     "up.flight_log.mcap_writer",
     "black_box_cog.timeline",
     "black_box_cog.log_segment",

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from twisted.internet.defer import maybeDeferred
 
 from gps_cog.config import GPS, ReceiverConfig
 from gps_cog.gpsd import GpsdDecoder
-from gps_cog.gpsd_source import GpsdSource
 from gps_cog.receiver import Receiver
 from gps_cog.serial_source import OpenPort, SerialSource
 from up.base_started_module import BaseStartedModule
@@ -19,6 +18,9 @@ from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.mode import WITH_BOARD
 from up.protocols.serial_port import open_serial
+
+if TYPE_CHECKING:
+    from gps_cog.gpsd_source import GpsdSource
 
 
 class GpsProvider(BaseStartedModule):
@@ -79,6 +81,8 @@ class GpsProvider(BaseStartedModule):
         receiver = Receiver(config, decoder, reactor.seconds, publish)
         self._receivers[name] = receiver
         if config.source == "gpsd":
+            from gps_cog.gpsd_source import GpsdSource
+
             return GpsdSource(reactor, config.gpsd_port, receiver, decoder.watch, self.log)
         return SerialSource(reactor, config, receiver, decoder, self._open, self.log)
 

@@ -10,7 +10,6 @@ from twisted.internet.error import CannotListenError
 from metrics_cog.config import METRICS
 from up.base_started_module import BaseStartedModule
 from up.system.figures import Figure, numbers, text_of
-from up.system.metrics_page import serve_metrics
 
 
 class Metrics(BaseStartedModule):
@@ -26,6 +25,9 @@ class Metrics(BaseStartedModule):
         self._port: Any = None
 
     def on_start(self) -> bool:
+        # Imported here: Twisted's web server costs start time and memory.
+        from up.system.metrics_page import serve_metrics
+
         try:
             self._port = serve_metrics(self.context.reactor, self.config.port, self._page)
         except CannotListenError as error:

@@ -91,7 +91,7 @@ export function mountShell(store, connection) {
     silence.hidden = state === "live";
     if (state !== "live") {
       setText(silence, silenceText(store, state));
-      setAttribute(silence, "data-age", String(store.age_s(null)?.toFixed(1) ?? ""));
+      setAttribute(silence, "data-age-s", String(store.age_s(null)?.toFixed(1) ?? ""));
     }
     const frame = store.freshness(null);
     showBar("bar-link", linkWord(store, connection), state === "none" ? "none" : frame);

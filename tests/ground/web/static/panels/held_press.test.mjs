@@ -22,7 +22,7 @@ test("a press that is held fires once, however long it is held on", () => {
   assert.equal(press.state, "idle");
 });
 
-test("let go a moment too early it does nothing and says so", () => {
+test("released a moment too early it does nothing and shows why", () => {
   const press = new HeldPress();
   press.press("pointer", 0);
   assert.equal(hold(press, 0, HOLD_S - 0.02), 0);

@@ -57,7 +57,7 @@ public final class FlyingTest extends AppBench {
     private void confirm() {
         AlertDialog asked = ShadowAlertDialog.getLatestAlertDialog();
         assertTrue(asked.isShowing());
-        // Only what was seen is commanded by.
+        // Only values that were seen are commanded.
         Drawing.of(handset.window.get());
         asked.getButton(DialogInterface.BUTTON_POSITIVE).performClick();
         Wait.pass(0);

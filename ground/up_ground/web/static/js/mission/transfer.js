@@ -102,7 +102,7 @@ export class Transfer {
     }
   }
 
-  // After an upload: what is in use now.
+  // After an upload: the plan now in use.
   #uploadedText(answer, name, list) {
     if (answer.outcome === "ack") {
       return list.length === 0 ? `The aircraft has no ${name} now.` : `In use now: ${name} with ${countText(name, list.length)}, read back and equal to the drawn one.`;

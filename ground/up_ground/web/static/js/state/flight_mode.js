@@ -1,8 +1,6 @@
-import { MODE_REASONS, MODES } from "./schema.js";
+import { MODE_REASONS, MODES, PI_MODES } from "./schema.js";
 import * as validate from "./validate.js";
 
-/** The board's modes while the Raspberry Pi flies: its attitude or its servo positions. */
-const FLOWN_AT_AUTO = ["SETPOINT", "RETURN", "OUTPUT"];
 /** What a ground may select of an aircraft that does not report it. */
 const BOARD_MODES = ["RATE", "FBW"];
 const MAX_MODES = 32;
@@ -16,7 +14,7 @@ export function actingMode(store) {
 
 /** mode: of the board. */
 export function isFlownByPi(mode) {
-  return FLOWN_AT_AUTO.includes(mode);
+  return PI_MODES.includes(mode);
 }
 
 /** The Arduino's modes that a ground may select. */

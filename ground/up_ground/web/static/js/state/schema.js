@@ -20,6 +20,13 @@ export const MODES = {
   "TAKEOFF": {"about": "the motor starts when the aircraft is thrown with the throttle stick raised", "holder": ""},
 };
 
+/** The board's modes in which a mode of the Raspberry Pi flies. */
+export const PI_MODES = [
+  "SETPOINT",
+  "RETURN",
+  "OUTPUT",
+];
+
 /** Rows of the board panel; `style` applies to the value `when`. */
 export const BOARD_ROWS = [
   {"label": "Receiver", "path": "arduino.receiver_valid", "kind": "flag", "unit": "", "yes": "valid", "no": "NOT VALID", "style": "alarm", "when": false},

@@ -19,7 +19,6 @@ public final class FlightModes {
     private static final String UNKNOWN = "mode_unknown";
     /** What a ground may select of an aircraft that does not report it. */
     private static final List<String> BOARD_MODES = Arrays.asList("RATE", "FBW");
-    private static final List<String> FLOWN_BY_PI = Arrays.asList("SETPOINT", "RETURN", "OUTPUT");
     private static final int MAX_MODES = 32;
     private static final int MAX_NAME = 24;
 
@@ -30,7 +29,7 @@ public final class FlightModes {
     public static String acting(Telemetry telemetry) {
         final String board = telemetry.text("flight_mode");
         final String own = telemetry.text("flight_control.mode");
-        return FLOWN_BY_PI.contains(board) && own != null ? own : board;
+        return TelemetrySchema.PI_MODES.contains(board) && own != null ? own : board;
     }
 
     /** Returns the mode that acts, in MISSION with its item as in {@code MISSION 3/12}; null: unknown. */

@@ -84,7 +84,7 @@ final class LinkSecurity {
     /**
      * Returns what a body protects; null: a handshake, for others, or refused and counted.
      *
-     * <p>With a key a plain body is refused: whoever can drop the protected ones could have
+     * <p>With a key a plain body is refused: an attacker who can drop the protected ones could have
      * written it.
      */
     byte[] open(byte[] body) {

@@ -1,6 +1,7 @@
 package org.raspilot.up.ground;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.Collections;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
@@ -31,6 +32,9 @@ public final class TelemetrySchema {
     static final Map<String, String> MODE_REASONS = new HashMap<>();
     private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
     private static final Map<String, Boolean> OPTIONAL = new HashMap<>();
+    /** The board's modes in which a mode of the Raspberry Pi flies. */
+    static final List<String> PI_MODES =
+            Arrays.asList("SETPOINT", "RETURN", "OUTPUT");
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();

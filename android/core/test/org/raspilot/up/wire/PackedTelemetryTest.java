@@ -25,7 +25,7 @@ public final class PackedTelemetryTest {
         return bytes;
     }
 
-    /** Returns the body of a frame that is no key, with the common dictionary. */
+    /** Returns the body of a frame that is not a key frame, with the common dictionary. */
     private static byte[] packed(byte[] frame) {
         final Deflater deflater = new Deflater(6, true);
         deflater.setDictionary(Utf8.encode(PackedDictionary.TEXT));

@@ -7,7 +7,7 @@ import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track;
 
-/** The known state at a moment, for the parts of a screen; what is unknown is null. Immutable. */
+/** The known state at a moment, for the parts of a screen; an unknown value is null. Immutable. */
 public final class GroundSnapshot {
     static final GroundSnapshot EMPTY =
             new GroundSnapshot(Telemetry.EMPTY, null, null, null, null, null, 0);

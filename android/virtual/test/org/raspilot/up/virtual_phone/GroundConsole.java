@@ -15,7 +15,7 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  *                                    the newest frame's beacon, as a screen that shows all
  * {"gains": "ask" | "undo" | {"ratePIDs", "stabPIDs", "navPIDs"?}, "tag"?}
  * {"seat": "request" | "release" | {"give": 2}}
- * {"options": "--proxy ..."}                  connect anew, as if started with these options
+ * {"options": "--proxy ..."}                  connect again, as if started with these options
  * </pre>
  *
  * <p><b>Lines out.</b>

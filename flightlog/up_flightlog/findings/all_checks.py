@@ -7,14 +7,14 @@ from dataclasses import replace
 
 from up.fields import printable
 from up_flightlog.findings.board_checks import BOARD_CHECKS
-from up_flightlog.findings.finding import Detector, Finding
+from up_flightlog.findings.finding import Check, Finding
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.link_checks import LINK_CHECKS
 from up_flightlog.findings.program_checks import PROGRAM_CHECKS
 from up_flightlog.read.flight_log import FlightLog
 
-DETECTORS: tuple[Detector, ...] = (*BOARD_CHECKS, *LINK_CHECKS, *PROGRAM_CHECKS)
-_MAX_PER_DETECTOR = 50
+ALL_CHECKS: tuple[Check, ...] = (*BOARD_CHECKS, *LINK_CHECKS, *PROGRAM_CHECKS)
+_MAX_PER_CHECK = 50
 _MAX_TEXT = 500
 
 
@@ -24,21 +24,21 @@ def findings(log: FlightLog, context: FlightContext | None = None) -> list[Findi
     ``context`` reuses the data that another summary of the same log has read.
     """
     context = context or FlightContext(log)
-    found = [each for detector in DETECTORS for each in _bounded(detector(context))]
+    found = [each for check in ALL_CHECKS for each in _bounded(check(context))]
     return sorted(found, key=lambda each: each.time_s)
 
 
 def _bounded(found: Iterable[Finding]) -> Iterator[Finding]:
-    """Yield the first findings of a detector; the last one counts the rest."""
+    """Yield the first findings of a check; the last one counts the rest."""
     more: Finding | None = None
     count = 0
     for count, each in enumerate(found, 1):
-        if count <= _MAX_PER_DETECTOR:
+        if count <= _MAX_PER_CHECK:
             yield _one_line(each)
         elif more is None:
             more = _one_line(each)
     if more is not None:
-        rest = count - _MAX_PER_DETECTOR - 1
+        rest = count - _MAX_PER_CHECK - 1
         detail = f"{more.detail} (and {rest} more of this kind)"
         yield replace(more, detail=detail, fields={**more.fields, "more": rest})
 

@@ -1,4 +1,4 @@
-"""All detectors together."""
+"""All checks together."""
 
 from tests.flightlog.flights import (
     ALL_VALID,
@@ -10,7 +10,7 @@ from tests.flightlog.flights import FlightStateCommand as State
 from tests.flightlog.logs import LogMaker
 from up.commands.answer_commands import CommandAnsweredCommand
 from up_flightlog.findings import summary
-from up_flightlog.findings.detectors import DETECTORS, findings
+from up_flightlog.findings.all_checks import ALL_CHECKS, findings
 from up_flightlog.findings.flight_context import FlightContext
 
 
@@ -69,4 +69,4 @@ def test_a_shared_context_gives_the_same_result(maker, tmp_path):
     context = FlightContext(log)
     assert findings(log, context) == findings(log)
     assert summary.summarise(log, context) == summary.summarise(log)
-    assert len({detector.__name__ for detector in DETECTORS}) == len(DETECTORS) == 22
+    assert len({check.__name__ for check in ALL_CHECKS}) == len(ALL_CHECKS) == 22
