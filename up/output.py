@@ -27,7 +27,7 @@ class Echo(Protocol):
 def echo(text: str, /, code: str = "", **fields: Any) -> None:
     """Show a line on stdout: an event if it has a code, otherwise a line of the answer itself."""
     line = program_line(text, code, fields) if code else None
-    print(line or text, flush=True)  # noqa: T201
+    _print_line(line or text, sys.stdout)
 
 
 def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
@@ -35,7 +35,12 @@ def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
     head = "" if level == "error" else f"{level}: "
     for text, each in {str(each): each for each in problems}.items():
         line = program_line(text, each.code, each.fields, level) or _shown(f"{head}{text}")
-        print(line, file=sys.stderr)  # noqa: T201 - the user's answer
+        _print_line(line, sys.stderr)
+
+
+def _print_line(line: str, stream: TextIO) -> None:
+    # One write: a thread that logs cannot come between a line and its end.
+    print(f"{line}\n", end="", file=stream, flush=True)  # noqa: T201 - the user's answer
 
 
 class StatusLine:
