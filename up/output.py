@@ -40,7 +40,7 @@ def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
 
 def _print_line(line: str, stream: TextIO) -> None:
     # One write: a thread that logs cannot come between a line and its end.
-    print(f"{line}\n", end="", file=stream, flush=True)  # noqa: T201 - the user's answer
+    print(f"{line}\n", end="", file=stream, flush=True)
 
 
 class StatusLine:
