@@ -78,7 +78,7 @@ def echo(tmp_path_factory):
     classes = tmp_path_factory.mktemp("echo")
     sources = [str(WIRE_TESTS / f"{name}.java") for name in ("JsonEcho", "Vectors")]
     javac = [str(ANDROID / "tools" / "javac"), "-cp", str(core), "-d", str(classes), *sources]
-    done = subprocess.run(javac, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(javac, capture_output=True, text=True, timeout=800)
     assert done.returncode == 0, done.stderr
     echo = Echo([program.java, "-Xshare:auto", "-Xmx128m", "-cp", f"{classes}:{core}", MAIN])
     yield echo

@@ -282,7 +282,7 @@ def test_what_runs_in_the_browser(proxy, tmp_path):
     with Serve(tmp_path, proxy.ground_port) as server:
         address = f"http://127.0.0.1:{server.port}/"
         program = Path(__file__).with_name("architecture_page.mjs")
-        done = subprocess.run([node, program, address], capture_output=True, text=True, timeout=120)
+        done = subprocess.run([node, program, address], capture_output=True, text=True, timeout=800)
     assert done.returncode == 0, done.stderr
     called = json.loads(done.stdout)
     later = [("js/link/connection.js", "take"), ("js/panels/messages.js", "answerText")]

@@ -29,7 +29,7 @@ def run(tmp_path):
             env={**os.environ, "PYTHONPATH": str(REPOSITORY)},
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=800,
             check=False,
         )
 

@@ -80,7 +80,7 @@ def run(tree, *arguments):
         env={**os.environ, "PYTHONPATH": f"{tree}:{tree / 'simulator'}"},
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=800,
     )
 
 

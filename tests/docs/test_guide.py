@@ -187,7 +187,7 @@ def test_the_cog_from_outside_is_gathered_and_listed(tmp_path):
         env=environment.environ(),
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=800,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "lidar_cog.modules.lidar_module.LidarModule" in done.stdout

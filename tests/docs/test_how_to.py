@@ -84,7 +84,7 @@ def test_the_instrument_shows_the_modules_value(tmp_path, monkeypatch):
             [node, program, f"http://127.0.0.1:{server.port}/", "ceiling"],
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=800,
         )
     assert (done.returncode, done.stdout) == (0, "highest 412 m\n"), done.stderr
 
@@ -183,7 +183,7 @@ def test_the_modules_test_passes(plane):
         env={"PYTHONPATH": f"{REPOSITORY}:{application.root.parent}"},
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=800,
         check=False,
     )
     assert "1 passed" in done.stdout, done.stdout + done.stderr

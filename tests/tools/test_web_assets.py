@@ -115,7 +115,7 @@ class Checkout:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=120,
+            timeout=800,
             check=False,
         )
         assert done.returncode == 0, done.stdout

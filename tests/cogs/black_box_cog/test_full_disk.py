@@ -34,7 +34,7 @@ def flown_on(folder, options, *arguments):
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=800,
         check=True,
     )
     return json.loads(done.stdout)

@@ -60,7 +60,7 @@ def test_a_signal_during_the_start_of_a_worker_leaves_no_traceback(tmp_path, num
         [sys.executable, str(path)],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=800,
         check=False,
         start_new_session=True,
         cwd=os.fspath(tmp_path),

@@ -52,7 +52,7 @@ def test_the_same_seed_gives_the_same_log_in_another_process(tmp_path):
     subprocess.run(
         [*command, "--no-picture", "--output", tmp_path],
         env=os.environ | {"PYTHONHASHSEED": "77"},
-        timeout=120,
+        timeout=800,
         check=False,
     )
     assert (tmp_path / "same" / "log.csv").read_text() == here.log.text()

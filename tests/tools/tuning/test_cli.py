@@ -61,7 +61,7 @@ def test_an_unwritable_picture_is_reported_and_removed(log, tmp_path, capsys):
     tuning = f'"{sys.executable}" -m up_simulator tune'
     command = f'ulimit -f 1; exec {tuning} --log "$0" --pictures "$1"'
     words = ["sh", "-c", command, str(log), str(tmp_path / "new")]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=800, check=False)
     assert (done.returncode, list((tmp_path / "new").iterdir())) == (0, [])
     assert "-steps.png: " in done.stderr and done.stderr.count("\n") == 1
 

@@ -28,7 +28,7 @@ def test_the_installed_command():
         capture_output=True,
         text=True,
         check=True,
-        timeout=120,
+        timeout=800,
     )
     assert done.stdout == f"Up {VERSION}\n"
 

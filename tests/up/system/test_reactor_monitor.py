@@ -20,7 +20,7 @@ def test_the_cases_pass_in_a_process_with_one_thread():
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=800,
         check=False,
     )
     assert result.returncode == 0, result.stdout + result.stderr
