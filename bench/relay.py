@@ -83,7 +83,7 @@ def our_proxy(folder: Path, more: str = "") -> Iterator[tuple[int, int, int]]:
     (folder / "proxy.yml").write_text(
         "airborne port: 0\nground port: 0\nmetrics: false\n"
         "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
-        f"  aircraft: 6000\n{more}"
+        f"  aircraft: 6000\n  connections per second: 100000\n{more}"
     )
     proxy = RealProxy(folder, folder)
     proxy.start()

@@ -19,6 +19,8 @@ from up_proxy.tls_handshakes import TLSHandshakes
 from up_proxy.tls_socket import TLSSocket
 
 _ACCEPT_BATCH = 64
+_WINDOW_S = 0.05
+"""The rate of new connections is kept in each window of this length."""
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _RETRY_S = 1.0
 _log = UpLogger.get_logger("proxy")
@@ -47,6 +49,8 @@ class Acceptor:
         # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
         self._queue_bytes = config.limits.queue_bytes if side is Side.GROUND else 0
         self._sources: Counter[str] = Counter()
+        self._per_window = round(config.limits.rate * _WINDOW_S)
+        self._left, self._window_end_s = 0, 0.0
         self._retry: Timer | None = None
         self._on_closed = self._discard
         self._public_logged = False
@@ -90,6 +94,9 @@ class Acceptor:
             connection.fail("the proxy is stopping")
 
     def on_ready(self, events: int) -> None:
+        now_s = self._poller.now_s
+        if now_s >= self._window_end_s:
+            self._left, self._window_end_s = self._per_window, now_s + _WINDOW_S
         for _ in range(_ACCEPT_BATCH):
             try:
                 peer, address = self._listener.accept()
@@ -97,14 +104,17 @@ class Acceptor:
                 return
             except OSError as error:
                 if error.errno in _OUT_OF_DESCRIPTORS:
-                    self._pause()
+                    self._out_of_descriptors()
                     return
                 continue  # the peer closed before it was accepted
-            self._accept(peer, plain(address[0]))
+            self._left -= self._accept(peer, plain(address[0]))
+            if self._left <= 0:
+                self._pause(self._window_end_s - now_s)
+                return
 
     def fail(self, reason: str) -> None:
         """Pause: one failure must not close the listening socket."""
-        self._pause()
+        self._out_of_descriptors()
 
     def end(self) -> None:
         self._poller.discard(self._listener.fileno())
@@ -125,20 +135,22 @@ class Acceptor:
             self.tls.sweep(now_s)
             self._check_revoked(self.tls.files)
 
-    def _accept(self, peer: socket.socket, host: str) -> None:
+    def _accept(self, peer: socket.socket, host: str) -> bool:
+        """Return whether the peer may stay; one that may not costs nothing of the rate."""
         error = self._check(host)
         if error is not None:
             if self.tls is None:
                 with suppress(OSError):
                     peer.send(Refused(error.code, error.reason).encode())
             peer.close()
-            return
+            return False
         peer.setblocking(False)
         self._sources[neighbourhood(host)] += 1
         if self.tls is None:
             self._connect(peer, host)
         else:
             self.tls.begin(peer, host)
+        return True
 
     def _connect(self, peer: socket.socket | TLSSocket, host: str) -> None:
         self.accepted += 1
@@ -190,16 +202,22 @@ class Acceptor:
         if self._sources[source] <= 0:
             del self._sources[source]
 
-    def _pause(self) -> None:
-        if self._retry is None and self.is_open():
+    def _out_of_descriptors(self) -> None:
+        if self._pause(_RETRY_S):
             _log.error(
                 "{side} side accepts nothing for {pause_s:g} s: too many open files",
                 code="out_of_descriptors",
                 side=self.side.value,
                 pause_s=_RETRY_S,
             )
-            self._poller.discard(self._listener.fileno())
-            self._retry = self._clock.callLater(_RETRY_S, self._resume)
+
+    def _pause(self, pause_s: float) -> bool:
+        """Accept nothing for this time; return whether it did until now."""
+        if self._retry is not None or not self.is_open():
+            return False
+        self._poller.discard(self._listener.fileno())
+        self._retry = self._clock.callLater(pause_s, self._resume)
+        return True
 
     def _resume(self) -> None:
         self._retry = None

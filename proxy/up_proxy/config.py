@@ -20,6 +20,14 @@ class LimitsConfig:
         minimum=1,
         maximum=100000,
     )
+    rate: int = key(
+        100,
+        "New connections on each side in a second. Further ones wait in the system's queue: many "
+        "that connect together do not delay those that fly.",
+        name="connections per second",
+        minimum=20,
+        maximum=100000,
+    )
     aircraft: int = key(
         1000, "Aircraft names at one time.", name="aircraft", minimum=1, maximum=100000
     )

@@ -10,7 +10,10 @@ from tests.proxy.program import Client, Program, accepted, until
 from tests.proxy.test_metrics import scrape, value
 from tests.up.protocols.test_proxy_lines import mutated
 
-LIMITS = "limits:\n  connections per side: 1500\n  connections per address: 1500\n"
+LIMITS = (
+    "limits:\n  connections per side: 1500\n  connections per address: 1500\n"
+    "  connections per second: 100000\n"
+)
 GROWTH_BYTES = 24_000_000
 
 

@@ -1,6 +1,7 @@
 """The limits of the proxy."""
 
 from tests.proxy.virtual import Bench
+from up.protocols.proxy_lines import Side
 
 
 def refusal(peer):
@@ -35,3 +36,20 @@ def test_the_owner_resumes_control_beyond_the_limit_of_listeners():
         again, _ = bench.hello_ground(extra=f" token={token}")
         owner.expect_closed()
         assert not again.closed
+
+
+def test_new_connections_beyond_the_rate_wait_and_delay_nobody():
+    """Two in 50 ms; those that are refused do not count."""
+    with Bench(rate=40, per_address=4) as bench:
+        acceptor = next(each for each in bench.proxy._acceptors if each.side is Side.GROUND)
+        (air, _), (ground, _) = bench.hello_air(), bench.hello_ground()
+        bench.pass_time(0.25)
+        for _ in range(8):
+            bench.ground()
+            bench.settle()
+        assert acceptor.accepted == 3
+        air.say("frame\n")
+        assert ground.line() == "frame\n"
+        bench.reactor.advance(0.05)
+        bench.settle()
+        assert (acceptor.accepted, acceptor.over_limit) == (4, 5)
