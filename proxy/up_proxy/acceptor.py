@@ -4,12 +4,14 @@ import errno
 import socket
 from collections import Counter
 from contextlib import suppress
+from typing import NamedTuple
 
 from up.log import Limited, UpLogger
 from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
 from up.system.addresses import is_private, neighbourhood, plain
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.tls.files import TLSFiles
+from up_proxy.admission_queue import AdmissionQueue
 from up_proxy.config import ProxyConfig
 from up_proxy.connection import Connection
 from up_proxy.handshake import Handshake
@@ -21,9 +23,18 @@ from up_proxy.tls_socket import TLSSocket
 _ACCEPT_BATCH = 64
 _WINDOW_S = 0.05
 """The rate of new connections is kept in each window of this length."""
+_WAIT_S = 2.0
+"""So many connections may wait as the rate permits in this time: clients give up after 5 s."""
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _RETRY_S = 1.0
 _log = UpLogger.get_logger("proxy")
+
+
+class _Newcomer(NamedTuple):
+    """An accepted connection from which nothing was read yet."""
+
+    peer: socket.socket
+    host: str
 
 
 class Acceptor:
@@ -49,8 +60,10 @@ class Acceptor:
         # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
         self._queue_bytes = config.limits.queue_bytes if side is Side.GROUND else 0
         self._sources: Counter[str] = Counter()
-        self._per_window = round(config.limits.rate * _WINDOW_S)
-        self._left, self._window_end_s = 0, 0.0
+        self._per_window = max(1, round(config.limits.rate * _WINDOW_S))
+        self._left = self._per_window
+        self._window: Timer | None = None
+        self._waiting = AdmissionQueue[_Newcomer](round(config.limits.rate * _WAIT_S))
         self._retry: Timer | None = None
         self._on_closed = self._discard
         self._public_logged = False
@@ -90,13 +103,13 @@ class Acceptor:
         if self.tls is not None:
             self.tls.close()
             self._log.stop()
+        cancel(self._window)
+        while self._waiting:
+            self._waiting.pop().peer.close()
         for connection in self.connections:
             connection.fail("the proxy is stopping")
 
     def on_ready(self, events: int) -> None:
-        now_s = self._poller.now_s
-        if now_s >= self._window_end_s:
-            self._left, self._window_end_s = self._per_window, now_s + _WINDOW_S
         for _ in range(_ACCEPT_BATCH):
             try:
                 peer, address = self._listener.accept()
@@ -104,17 +117,14 @@ class Acceptor:
                 return
             except OSError as error:
                 if error.errno in _OUT_OF_DESCRIPTORS:
-                    self._out_of_descriptors()
+                    self._pause()
                     return
                 continue  # the peer closed before it was accepted
-            self._left -= self._accept(peer, plain(address[0]))
-            if self._left <= 0:
-                self._pause(self._window_end_s - now_s)
-                return
+            self._accept(peer, plain(address[0]))
 
     def fail(self, reason: str) -> None:
         """Pause: one failure must not close the listening socket."""
-        self._out_of_descriptors()
+        self._pause()
 
     def end(self) -> None:
         self._poller.discard(self._listener.fileno())
@@ -135,22 +145,49 @@ class Acceptor:
             self.tls.sweep(now_s)
             self._check_revoked(self.tls.files)
 
-    def _accept(self, peer: socket.socket, host: str) -> bool:
-        """Return whether the peer may stay; one that may not costs nothing of the rate."""
+    def _accept(self, peer: socket.socket, host: str) -> None:
         error = self._check(host)
         if error is not None:
-            if self.tls is None:
-                with suppress(OSError):
-                    peer.send(Refused(error.code, error.reason).encode())
-            peer.close()
-            return False
+            self._refuse(peer, error)
+            return
         peer.setblocking(False)
-        self._sources[neighbourhood(host)] += 1
+        source = neighbourhood(host)
+        self._sources[source] += 1
+        if self._left:
+            self._admit(peer, host)
+            return
+        lost = self._waiting.put(source, _Newcomer(peer, host))
+        if lost is not None:
+            self.over_limit += 1
+            self._release(lost.host)
+            self._refuse(lost.peer, HelloError(FULL, "too many new connections"))
+
+    def _refuse(self, peer: socket.socket, error: HelloError) -> None:
+        if self.tls is None:
+            with suppress(OSError):
+                peer.send(Refused(error.code, error.reason).encode())
+        peer.close()
+
+    def _admit(self, peer: socket.socket, host: str) -> None:
+        self._left -= 1
+        if self._window is None:
+            self._window = self._clock.callLater(_WINDOW_S, self._next_window)
         if self.tls is None:
             self._connect(peer, host)
         else:
             self.tls.begin(peer, host)
-        return True
+
+    def _next_window(self) -> None:
+        """Admit those that wait and are still there; who left costs nothing of the rate."""
+        self._window = None
+        self._left = self._per_window
+        while self._left and self._waiting:
+            peer, host = self._waiting.pop()
+            if _is_there(peer):
+                self._admit(peer, host)
+            else:
+                self._release(host)
+                peer.close()
 
     def _connect(self, peer: socket.socket | TLSSocket, host: str) -> None:
         self.accepted += 1
@@ -184,7 +221,7 @@ class Acceptor:
                     side=self.side.value,
                 )
             return HelloError(ADDRESS, "plain connections from public addresses are not accepted")
-        if len(self.connections) >= self._limits.connections:
+        if len(self.connections) + len(self._waiting) >= self._limits.connections:
             self.over_limit += 1
             return HelloError(FULL, "too many connections on this side")
         if self._sources[neighbourhood(host)] >= self._limits.per_address:
@@ -202,23 +239,26 @@ class Acceptor:
         if self._sources[source] <= 0:
             del self._sources[source]
 
-    def _out_of_descriptors(self) -> None:
-        if self._pause(_RETRY_S):
+    def _pause(self) -> None:
+        if self._retry is None and self.is_open():
             _log.error(
                 "{side} side accepts nothing for {pause_s:g} s: too many open files",
                 code="out_of_descriptors",
                 side=self.side.value,
                 pause_s=_RETRY_S,
             )
-
-    def _pause(self, pause_s: float) -> bool:
-        """Accept nothing for this time; return whether it did until now."""
-        if self._retry is not None or not self.is_open():
-            return False
-        self._poller.discard(self._listener.fileno())
-        self._retry = self._clock.callLater(pause_s, self._resume)
-        return True
+            self._poller.discard(self._listener.fileno())
+            self._retry = self._clock.callLater(_RETRY_S, self._resume)
 
     def _resume(self) -> None:
         self._retry = None
         self._poller.watch(self._listener.fileno(), self)
+
+
+def _is_there(peer: socket.socket) -> bool:
+    try:
+        return bool(peer.recv(1, socket.MSG_PEEK))
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False

@@ -22,8 +22,8 @@ class LimitsConfig:
     )
     rate: int = key(
         100,
-        "New connections on each side in a second. Further ones wait in the system's queue: many "
-        "that connect together do not delay those that fly.",
+        "New connections on each side in a second. Further ones wait, fairly by address, for up to "
+        "2 s: many that connect together do not delay those that fly.",
         name="connections per second",
         minimum=20,
         maximum=100000,

@@ -3,6 +3,7 @@
 import os
 import socket
 
+LISTEN_BACKLOG = 1024
 SEND_BUFFER_BYTES = 65536
 """Small on purpose: data that the kernel buffers for a slow peer are stale on arrival."""
 KEEPALIVE_IDLE_S = 5
@@ -25,14 +26,11 @@ def cannot_listen(label: str, port: int, error: OSError) -> StartError:
     return StartError("cannot_listen", f"cannot listen on {label} {port}: {reason.lower()}")
 
 
-def listen(
-    label: str, address: str, port: int, user_timeout_ms: int, backlog: int = 1024
-) -> socket.socket:
+def listen(label: str, address: str, port: int, user_timeout_ms: int) -> socket.socket:
     """Return a listening, non-blocking TCP socket; accepted sockets inherit its options.
 
     An empty address listens on every interface, IPv4 and IPv6. `user_timeout_ms` bounds how long
-    sent data may stay unacknowledged (RFC 5482). `backlog` is the number of connections that wait
-    to be accepted. Raises StartError.
+    sent data may stay unacknowledged (RFC 5482). Raises StartError.
     """
     family, host = _family(address)
     listener = socket.socket(family, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
@@ -52,7 +50,7 @@ def listen(
         ):
             listener.setsockopt(socket.IPPROTO_TCP, option, value)
         listener.bind((host, port))
-        listener.listen(backlog)
+        listener.listen(LISTEN_BACKLOG)
     except OSError as error:
         listener.close()
         raise cannot_listen(label, port, error) from None

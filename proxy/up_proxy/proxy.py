@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
     from up_proxy.cluster.node import ClusterNode
 
-QUEUE_S = 2.0
-"""A connection waits at most this long to be accepted: clients give up after 5 s."""
 _log = UpLogger.get_logger("proxy")
 
 
@@ -184,9 +182,7 @@ class Proxy:
         if tls is not None:
             tls.server()
         label = f"{side.value} port"
-        limits = config.limits
-        backlog = round(limits.rate * QUEUE_S)
-        listener = listen(label, config.address, port, limits.user_timeout_ms, backlog)
+        listener = listen(label, config.address, port, config.limits.user_timeout_ms)
         if self._node is None:
             handshake = Handshake(side, self.registry, self._poller, self._quota)
         else:

@@ -29,9 +29,9 @@ class HandReactor(task.Clock):
 class Peer:
     """A client of the virtual proxy; `heard` is all its received data."""
 
-    def __init__(self, bench, port):
+    def __init__(self, bench, port, host=""):
         self.bench = bench
-        self.socket = socket.create_connection(("127.0.0.1", port))
+        self.socket = socket.create_connection(("127.0.0.1", port), source_address=(host, 0))
         # Without it the kernel holds a second small write back, and virtual time flies past it.
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.socket.setblocking(False)
@@ -148,8 +148,8 @@ class Bench:
         peer = Peer(self, self.proxy.airborne_port)
         return peer.say(first) if first else peer
 
-    def ground(self, first=""):
-        peer = Peer(self, self.proxy.ground_port)
+    def ground(self, first="", host=""):
+        peer = Peer(self, self.proxy.ground_port, host)
         return peer.say(first) if first else peer
 
     def hello_air(self, name="a", extra=""):
