@@ -1,6 +1,7 @@
 """The port of one side: accepts, limits, checks addresses, closes idle connections."""
 
 import errno
+import select
 import socket
 from collections import Counter
 from contextlib import suppress
@@ -256,9 +257,7 @@ class Acceptor:
 
 
 def _is_there(peer: socket.socket) -> bool:
-    try:
-        return bool(peer.recv(1, socket.MSG_PEEK))
-    except BlockingIOError:
-        return True
-    except OSError:
-        return False
+    """Return whether the peer still waits; its hello may lie unread before its end."""
+    look = select.poll()
+    look.register(peer, select.POLLRDHUP)
+    return not look.poll(0)

@@ -49,7 +49,7 @@ def test_new_connections_beyond_the_rate_wait_and_delay_nobody():
         assert (acceptor.accepted, acceptor.over_limit) == (2, 1)
         air.say("frame\n")
         assert ground.line() == "frame\n"
-        peers[2].close()
+        peers[2].say("UP1 aircraft=a seat=listen\n").close()
         for accepted in (3, 4, 5, 5):
             bench.reactor.advance(0.05)
             assert acceptor.accepted == accepted
