@@ -6,7 +6,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, Protocol, TextIO
 
@@ -41,6 +41,23 @@ def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
 def _print_line(line: str, stream: TextIO) -> None:
     # One write: a thread that logs cannot come between a line and its end.
     print(f"{line}\n", end="", file=stream, flush=True)
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], right: Sequence[int] = ()) -> str:
+    """Return lines with aligned columns; those numbered in ``right`` are right-aligned.
+
+    Control characters are escaped.
+    """
+    cells = [[printable(cell) for cell in row] for row in (head, *rows)]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    lines = []
+    for row in cells:
+        parts = [
+            cell.rjust(width) if number in right else cell.ljust(width)
+            for number, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        lines.append("  ".join(parts).rstrip())
+    return "\n".join(lines)
 
 
 class StatusLine:

@@ -9,8 +9,9 @@ from pathlib import Path
 from tempfile import TemporaryFile
 
 from up.cli.cli_error import CliError
+from up.output import echo
 from up_flightlog.cli.open_flight import check_topics, flight_of, unknown_topic
-from up_flightlog.cli.terminal import DecodingProgress, echo, warn
+from up_flightlog.cli.terminal import DecodingProgress, warn
 from up_flightlog.export.csv_table import topic_lines, wide_lines
 from up_flightlog.export.gpx import gpx_lines
 from up_flightlog.export.kml import kml_lines

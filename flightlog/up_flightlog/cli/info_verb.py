@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from up.fields import printable
+from up.output import echo, table
 from up_flightlog.cli.open_flight import flight_of
-from up_flightlog.cli.terminal import echo, table
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.summary import Finding, FlightSummary, findings, summarise
 from up_flightlog.read.flight_log import FlightLog

@@ -12,6 +12,7 @@ from typing import Any
 
 from up.cli.cli_error import UsageError
 from up.fields import printable
+from up.output import echo, table
 from up_flightlog.cli.open_flight import flights_folder
 from up_flightlog.cli.overview import (
     Overview,
@@ -19,7 +20,7 @@ from up_flightlog.cli.overview import (
     cache_path,
     overview_of,
 )
-from up_flightlog.cli.terminal import Progress, echo, table, warn
+from up_flightlog.cli.terminal import Progress, warn
 from up_flightlog.read.flights import Flight, demo_hint, flights_in
 from up_flightlog.read.log_files import is_being_recorded
 from up_flightlog.read.spans import duration_text

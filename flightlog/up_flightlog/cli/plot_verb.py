@@ -9,8 +9,9 @@ from pathlib import Path
 
 from up.cli.cli_error import CliError
 from up.fields import printable
+from up.output import echo
 from up_flightlog.cli.open_flight import check_topics, flight_of, unknown_field
-from up_flightlog.cli.terminal import DecodingProgress, echo
+from up_flightlog.cli.terminal import DecodingProgress
 from up_flightlog.export.csv_table import flat
 from up_flightlog.export.output import file_exists, write_file
 from up_flightlog.findings.flight_context import FlightContext

@@ -8,8 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from up.fields import printable
+from up.output import echo
 from up_flightlog.cli.open_flight import flight_of
-from up_flightlog.cli.terminal import DecodingProgress, Progress, echo, warn
+from up_flightlog.cli.terminal import DecodingProgress, Progress, warn
 from up_flightlog.export.output import file_exists, make_folder, write_file
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.read.flight_log import FlightLog
