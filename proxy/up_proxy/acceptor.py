@@ -11,6 +11,7 @@ from up.log import Limited, UpLogger
 from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock, Timer, cancel
+from up.system.token_bucket import TokenBucket
 from up.tls.files import TLSFiles
 from up_proxy.admission_queue import AdmissionQueue
 from up_proxy.config import ProxyConfig
@@ -22,8 +23,8 @@ from up_proxy.tls_handshakes import TLSHandshakes
 from up_proxy.tls_socket import TLSSocket
 
 _ACCEPT_BATCH = 64
-_WINDOW_S = 0.05
-"""The rate of new connections is kept in each window of this length."""
+_TURN_S = 0.05
+"""Time between two looks at those that wait; so long a pause is made up for."""
 _WAIT_S = 2.0
 """So many connections may wait as the rate permits in this time: clients give up after 5 s."""
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
@@ -61,10 +62,10 @@ class Acceptor:
         # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
         self._queue_bytes = config.limits.queue_bytes if side is Side.GROUND else 0
         self._sources: Counter[str] = Counter()
-        self._per_window = max(1, round(config.limits.rate * _WINDOW_S))
-        self._left = self._per_window
-        self._window: Timer | None = None
-        self._waiting = AdmissionQueue[_Newcomer](round(config.limits.rate * _WAIT_S))
+        rate_hz = config.limits.connections_hz
+        self._rate = TokenBucket(clock, rate_hz, max(1.0, rate_hz * _TURN_S))
+        self._waiting = AdmissionQueue[_Newcomer](round(rate_hz * _WAIT_S))
+        self._turn: Timer | None = None
         self._retry: Timer | None = None
         self._on_closed = self._discard
         self._public_logged = False
@@ -104,7 +105,7 @@ class Acceptor:
         if self.tls is not None:
             self.tls.close()
             self._log.stop()
-        cancel(self._window)
+        cancel(self._turn)
         while self._waiting:
             self._waiting.pop().peer.close()
         for connection in self.connections:
@@ -154,7 +155,7 @@ class Acceptor:
         peer.setblocking(False)
         source = neighbourhood(host)
         self._sources[source] += 1
-        if self._left:
+        if not self._waiting and self._rate.take():
             self._admit(peer, host)
             return
         lost = self._waiting.put(source, _Newcomer(peer, host))
@@ -162,6 +163,8 @@ class Acceptor:
             self.over_limit += 1
             self._release(lost.host)
             self._refuse(lost.peer, HelloError(FULL, "too many new connections"))
+        if self._turn is None:
+            self._turn = self._clock.callLater(_TURN_S, self._admit_waiting)
 
     def _refuse(self, peer: socket.socket, error: HelloError) -> None:
         if self.tls is None:
@@ -170,25 +173,26 @@ class Acceptor:
         peer.close()
 
     def _admit(self, peer: socket.socket, host: str) -> None:
-        self._left -= 1
-        if self._window is None:
-            self._window = self._clock.callLater(_WINDOW_S, self._next_window)
         if self.tls is None:
             self._connect(peer, host)
         else:
             self.tls.begin(peer, host)
 
-    def _next_window(self) -> None:
-        """Admit those that wait and are still there; who left costs nothing of the rate."""
-        self._window = None
-        self._left = self._per_window
-        while self._left and self._waiting:
+    def _admit_waiting(self) -> None:
+        while self._waiting and self._rate.take():
+            self._admit_next()
+        again = bool(self._waiting)
+        self._turn = self._clock.callLater(_TURN_S, self._admit_waiting) if again else None
+
+    def _admit_next(self) -> None:
+        """Admit the next one that is still there; the others cost nothing of the rate."""
+        while self._waiting:
             peer, host = self._waiting.pop()
             if _is_there(peer):
                 self._admit(peer, host)
-            else:
-                self._release(host)
-                peer.close()
+                return
+            self._release(host)
+            peer.close()
 
     def _connect(self, peer: socket.socket | TLSSocket, host: str) -> None:
         self.accepted += 1

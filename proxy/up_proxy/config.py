@@ -20,10 +20,10 @@ class LimitsConfig:
         minimum=1,
         maximum=100000,
     )
-    rate: int = key(
+    connections_hz: int = key(
         100,
-        "New connections on each side in a second. Further ones wait, fairly by address, for up to "
-        "2 s: many that connect together do not delay those that fly.",
+        "New connections on each side. Twice as many may wait, and their addresses take turns: "
+        "aircraft that connect together do not delay those that fly.",
         name="connections per second",
         minimum=20,
         maximum=100000,

@@ -91,7 +91,7 @@ class Bench:
             address="127.0.0.1",
             metrics=False,
             i_accept_plain=i_accept_plain,
-            limits=LimitsConfig(**{"rate": 100000, **limits}),
+            limits=LimitsConfig(**{"connections_hz": 100000, **limits}),
             tls=tls or TLSConfig(),
             quota=QuotaConfig(**(quota or {})),
         )
