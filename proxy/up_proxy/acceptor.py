@@ -24,9 +24,9 @@ from up_proxy.tls_socket import TLSSocket
 
 _ACCEPT_BATCH = 64
 _TURN_S = 0.05
-"""Time between two looks at those that wait; so long a pause is made up for."""
+"""Period at which waiting connections are admitted."""
 _WAIT_S = 2.0
-"""So many connections may wait as the rate permits in this time: clients give up after 5 s."""
+"""As many may wait as the rate admits in this time; clients give up after 5 s."""
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _RETRY_S = 1.0
 _log = UpLogger.get_logger("proxy")
@@ -185,7 +185,7 @@ class Acceptor:
         self._turn = self._clock.callLater(_TURN_S, self._admit_waiting) if again else None
 
     def _admit_next(self) -> None:
-        """Admit the next one that is still there; the others cost nothing of the rate."""
+        """Admit the next one that is still there, and drop those that are not."""
         while self._waiting:
             peer, host = self._waiting.pop()
             if _is_there(peer):
@@ -261,7 +261,7 @@ class Acceptor:
 
 
 def _is_there(peer: socket.socket) -> bool:
-    """Return whether the peer still waits; its hello may lie unread before its end."""
+    """Return whether the peer has not closed; an unread hello does not hide that."""
     look = select.poll()
     look.register(peer, select.POLLRDHUP)
     return not look.poll(0)

@@ -1,4 +1,4 @@
-"""Connections that wait until the rate of new ones permits them, fairly by their source."""
+"""Connections that wait because too many are new; their sources take turns."""
 
 from collections import deque
 from typing import Generic, TypeVar
@@ -9,8 +9,8 @@ _T = TypeVar("_T")
 class AdmissionQueue(Generic[_T]):
     """At most `size` items, first come first served within a source; the sources take turns.
 
-    Where it is full, the source with the most items loses its newest one: whoever connects without
-    end delays and displaces only itself.
+    When it is full, the source with the most items loses its newest one: a flood displaces only
+    its own connections.
     """
 
     def __init__(self, size: int) -> None:
@@ -28,7 +28,7 @@ class AdmissionQueue(Generic[_T]):
         self._count += 1
         if self._count <= self._size:
             return None
-        # Of equal ones the newcomer: it has waited for the shortest time.
+        # In a tie the newcomer loses: it has waited for the shortest time.
         heaviest = max(self._queues, key=lambda each: (len(self._queues[each]), each == source))
         lost = self._queues[heaviest].pop()
         self._forget_empty(heaviest)

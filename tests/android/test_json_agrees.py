@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from tests.support.java import JARS, java_program
 from tests.support.tools import need_tool
+from tests.support.waiting import HANG_S
 from up.commands.command import InvalidCommandError, constraint_of, wire_fields
 from up.protocols.general_message import MalformedMessage, decode, encode
 from up_ground.catalogue import Catalogue
@@ -78,7 +79,7 @@ def echo(tmp_path_factory):
     classes = tmp_path_factory.mktemp("echo")
     sources = [str(WIRE_TESTS / f"{name}.java") for name in ("JsonEcho", "Vectors")]
     javac = [str(ANDROID / "tools" / "javac"), "-cp", str(core), "-d", str(classes), *sources]
-    done = subprocess.run(javac, capture_output=True, text=True, timeout=800)
+    done = subprocess.run(javac, capture_output=True, text=True, timeout=HANG_S)
     assert done.returncode == 0, done.stderr
     echo = Echo([program.java, "-Xshare:auto", "-Xmx128m", "-cp", f"{classes}:{core}", MAIN])
     yield echo

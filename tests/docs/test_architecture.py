@@ -31,6 +31,7 @@ from tests.proxy.program import Program
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import HANG_S
 from up.commands.servo_command import ServoCommand
 from up_ground.catalogue import Catalogue
 from up_ground.settings import Settings
@@ -282,7 +283,9 @@ def test_what_runs_in_the_browser(proxy, tmp_path):
     with Serve(tmp_path, proxy.ground_port) as server:
         address = f"http://127.0.0.1:{server.port}/"
         program = Path(__file__).with_name("architecture_page.mjs")
-        done = subprocess.run([node, program, address], capture_output=True, text=True, timeout=800)
+        done = subprocess.run(
+            [node, program, address], capture_output=True, text=True, timeout=HANG_S
+        )
     assert done.returncode == 0, done.stderr
     called = json.loads(done.stdout)
     later = [("js/link/connection.js", "take"), ("js/panels/messages.js", "answerText")]

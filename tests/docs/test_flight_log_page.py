@@ -11,6 +11,7 @@ import pytest
 
 from tests.flightlog.logbook import quiet, write_flight
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import HANG_S
 from up_flightlog.cli.parser import add
 
 PAGE = (REPOSITORY / "docs" / "flight-log.md").read_text(encoding="utf-8")
@@ -29,7 +30,7 @@ def run(tmp_path):
             env={**os.environ, "PYTHONPATH": str(REPOSITORY)},
             capture_output=True,
             text=True,
-            timeout=800,
+            timeout=HANG_S,
             check=False,
         )
 

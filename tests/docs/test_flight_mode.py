@@ -14,6 +14,7 @@ from tests.raspilot.flight_controller_rig import FBW_MODE
 from tests.raspilot.flight_controller_rig import Rig as ManagerRig
 from tests.support.application import importable, plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import HANG_S
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
@@ -80,7 +81,7 @@ def run(tree, *arguments):
         env={**os.environ, "PYTHONPATH": f"{tree}:{tree / 'simulator'}"},
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
     )
 
 

@@ -18,7 +18,7 @@ import pytest
 from tests.docs.flying import LIMIT_S, copy_of_the_tree, files_of, flying, lines_of
 from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
-from tests.support.waiting import until
+from tests.support.waiting import HANG_S, until
 from up_flightlog.read.flight_log import FlightLog
 
 PAGE = "guide.md"
@@ -187,7 +187,7 @@ def test_the_cog_from_outside_is_gathered_and_listed(tmp_path):
         env=environment.environ(),
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "lidar_cog.modules.lidar_module.LidarModule" in done.stdout

@@ -18,6 +18,7 @@ from tests.proxy.program import Program as Proxy
 from tests.support.application import plan_of, write_application
 from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
+from tests.support.waiting import HANG_S
 from tools.schema_definition import Schema
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.location_command import LocationCommand
@@ -84,7 +85,7 @@ def test_the_instrument_shows_the_modules_value(tmp_path, monkeypatch):
             [node, program, f"http://127.0.0.1:{server.port}/", "ceiling"],
             capture_output=True,
             text=True,
-            timeout=800,
+            timeout=HANG_S,
         )
     assert (done.returncode, done.stdout) == (0, "highest 412 m\n"), done.stderr
 
@@ -183,7 +184,7 @@ def test_the_modules_test_passes(plane):
         env={"PYTHONPATH": f"{REPOSITORY}:{application.root.parent}"},
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
         check=False,
     )
     assert "1 passed" in done.stdout, done.stdout + done.stderr

@@ -56,7 +56,7 @@ def test_new_connections_beyond_the_rate_wait_and_delay_nobody():
         peers[4].say("UP1 aircraft=a seat=listen\n").line()
 
 
-def test_attack_an_address_that_connects_without_end_delays_only_itself():
+def test_attack_a_flood_from_one_address_delays_only_itself():
     with Bench(connections_hz=2) as bench:
         bench.hello_air()
         for _ in range(20):

@@ -3,6 +3,8 @@
 import time
 
 DEADLINE_S = 90.0
+HANG_S = 800.0
+"""A program that a test started hangs if it runs for longer; a test may take 900 s."""
 
 
 def until(condition, what, deadline_s=DEADLINE_S):

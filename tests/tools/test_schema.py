@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_tool
+from tests.support.waiting import HANG_S
 from tools.command_tables import forms
 from up_ground.catalogue import Catalogue
 
@@ -137,7 +138,7 @@ def test_they_are_in_telemetry_events_alarms_findings_and_scenarios(tree):
     paths = os.pathsep.join(map(str, (tree, *cogs, *rooms, ROOT)))
     result = subprocess.run(
         [sys.executable, "-c", USER], env={**os.environ, "PYTHONPATH": paths}, cwd=tree,
-        capture_output=True, text=True, timeout=800, check=True,
+        capture_output=True, text=True, timeout=HANG_S, check=True,
     )  # fmt: skip
     found = json.loads(result.stdout)
     load = {"cpu": 5.0, "ram": 40, "temperature": 40, "panic": False, "delay_ms": 20}
@@ -161,7 +162,7 @@ def test_it_is_in_the_firmware(tree):
     field = '  static_assert(AT_BROWN_OUTS + 1 == STATUS_SIZE, "");\n  Link::Frame::u8(0);\n'
     source.write_text(text.replace(before, field + before))
     subprocess.run(
-        ["g++", "-std=gnu++11", "-fsyntax-only", str(source)], timeout=800, check=True,
+        ["g++", "-std=gnu++11", "-fsyntax-only", str(source)], timeout=HANG_S, check=True,
     )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_tool
+from tests.support.waiting import HANG_S
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = {
@@ -115,7 +116,7 @@ class Checkout:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=800,
+            timeout=HANG_S,
             check=False,
         )
         assert done.returncode == 0, done.stdout

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.support.waiting import HANG_S
+
 UP_FLEET = Path(sys.executable).with_name("up-fleet")
 
 
@@ -18,7 +20,7 @@ class UpFleet:
 
     def run(self, *words):
         command = [UP_FLEET, "--config", self.folder, *words]
-        return subprocess.run(command, capture_output=True, text=True, timeout=800, check=False)
+        return subprocess.run(command, capture_output=True, text=True, timeout=HANG_S, check=False)
 
     def ask(self, *words):
         """Return the answer of a verb that must succeed."""
@@ -30,7 +32,7 @@ class UpFleet:
         """Return the exit status and the code of a verb that must fail."""
         command = [UP_FLEET, "--config", self.folder, *words]
         environ = {"UP_LOG_FORMAT": "json", "PATH": "/usr/bin:/bin"}
-        done = subprocess.run(command, capture_output=True, text=True, timeout=800, env=environ)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=HANG_S, env=environ)
         lines = [json.loads(line) for line in done.stderr.splitlines()]
         return done.returncode, [each["fields"]["code"] for each in lines]
 

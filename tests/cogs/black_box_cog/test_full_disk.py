@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_root, need_tool, unavailable
+from tests.support.waiting import HANG_S
 
 ROOT = Path(__file__).parents[3]
 SIZE = "size=800k"
@@ -34,7 +35,7 @@ def flown_on(folder, options, *arguments):
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
         check=True,
     )
     return json.loads(done.stdout)

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_tool
+from tests.support.waiting import HANG_S
 
 STATIC = Path(__file__).parents[3] / "ground/up_ground/web/static"
 MODULES = sorted((STATIC / "js").rglob("*.js"))
@@ -146,7 +147,7 @@ def test_the_modules_do_what_their_tests_say() -> None:
         [node, "--test", *map(str, UNIT_TESTS)],
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
         check=False,
     )
     assert done.returncode == 0, done.stdout[-6000:] + done.stderr[-2000:]

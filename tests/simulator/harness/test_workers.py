@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.waiting import HANG_S
+
 ROOT = Path(__file__).parents[3]
 
 # The signal comes when the first worker's process exists, to the parent alone; or, to the whole
@@ -60,7 +62,7 @@ def test_a_signal_during_the_start_of_a_worker_leaves_no_traceback(tmp_path, num
         [sys.executable, str(path)],
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
         check=False,
         start_new_session=True,
         cwd=os.fspath(tmp_path),

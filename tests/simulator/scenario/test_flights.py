@@ -8,6 +8,7 @@ import pytest
 
 from tests.simulator.scenario.minimal import HEAD
 from tests.support.firmware import build_firmware
+from tests.support.waiting import HANG_S
 from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.file import parse_scenario
@@ -52,7 +53,7 @@ def test_the_same_seed_gives_the_same_log_in_another_process(tmp_path):
     subprocess.run(
         [*command, "--no-picture", "--output", tmp_path],
         env=os.environ | {"PYTHONHASHSEED": "77"},
-        timeout=800,
+        timeout=HANG_S,
         check=False,
     )
     assert (tmp_path / "same" / "log.csv").read_text() == here.log.text()

@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from tests.simulator.picture.flights import made_up
+from tests.support.waiting import HANG_S
 from up.flight_controller.pids_file import PIDS
 from up_simulator.cli import main
 
@@ -61,7 +62,7 @@ def test_an_unwritable_picture_is_reported_and_removed(log, tmp_path, capsys):
     tuning = f'"{sys.executable}" -m up_simulator tune'
     command = f'ulimit -f 1; exec {tuning} --log "$0" --pictures "$1"'
     words = ["sh", "-c", command, str(log), str(tmp_path / "new")]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=800, check=False)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=HANG_S, check=False)
     assert (done.returncode, list((tmp_path / "new").iterdir())) == (0, [])
     assert "-steps.png: " in done.stderr and done.stderr.count("\n") == 1
 

@@ -13,6 +13,7 @@ import pytest
 
 from tests.support.program_output import fields_of
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import HANG_S
 from up.cli.main import main
 
 
@@ -66,7 +67,7 @@ def own_process():
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
-            timeout=800,
+            timeout=HANG_S,
             check=False,
         )
 

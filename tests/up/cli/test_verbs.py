@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.waiting import HANG_S
 from up.version import VERSION
 
 
@@ -28,7 +29,7 @@ def test_the_installed_command():
         capture_output=True,
         text=True,
         check=True,
-        timeout=800,
+        timeout=HANG_S,
     )
     assert done.stdout == f"Up {VERSION}\n"
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_root, need_tool, unavailable
+from tests.support.waiting import HANG_S
 
 SCRIPT = Path(__file__).with_name("blackhole.py")
 TOOLS = {"unshare": "util-linux", "nft": "nftables", "ip": "iproute2"}
@@ -25,7 +26,7 @@ def test_a_blackhole_is_noticed_long_before_the_system_would(way):
         ["unshare", "-n", sys.executable, str(SCRIPT), way],
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
         env=environment,
         check=False,
     )

@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.support.waiting import HANG_S
+
 ROOT = Path(__file__).parents[3]
 
 
@@ -20,7 +22,7 @@ def test_the_cases_pass_in_a_process_with_one_thread():
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=800,
+        timeout=HANG_S,
         check=False,
     )
     assert result.returncode == 0, result.stdout + result.stderr
