@@ -44,9 +44,7 @@ class ClusterHandshake(Handshake):
             def admit(token: str) -> None:
                 super(ClusterHandshake, self)._admit(connection, replace(hello, token=token))
 
-            self._wait(
-                connection, self._claim(session, connection, hello.token), admit, self._refuse
-            )
+            self._wait(connection, session.claim(connection, hello.token), admit, self._refuse)
         elif session.is_home:
             super()._admit(connection, hello)
         else:
@@ -92,7 +90,7 @@ class ClusterHandshake(Handshake):
                     super(ClusterHandshake, self)._admit_legacy(connection, silent)
 
                 self._wait(
-                    connection, self._claim(session, connection, None), admit, self._refuse_legacy
+                    connection, session.claim(connection, None), admit, self._refuse_legacy
                 )
                 return
             if not session.is_home:
@@ -114,14 +112,6 @@ class ClusterHandshake(Handshake):
     def _check_guests(self, session: ClusterSession) -> None:
         if len(session.guests.connections) > self._max_listeners:
             raise HelloError(FULL, "too many grounds for this aircraft")
-
-    async def _claim(
-        self, session: ClusterSession, connection: Connection, token: str | None
-    ) -> str:
-        claimed = await session.claim(token)
-        if connection.failure is not None and claimed != token:
-            session.air_lease.release()  # for a token that no client has
-        return claimed
 
     def _wait(
         self,

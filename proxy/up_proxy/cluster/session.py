@@ -85,31 +85,37 @@ class ClusterSession(AircraftSession):
 
     # The lease.
 
-    async def claim(self, token: str | None) -> str:
+    async def claim(self, connection: Connection, token: str | None) -> str:
         """Make this node the home for an aircraft with this token; return its token from now on.
 
-        Raises HelloError if another connection has the aircraft, NatsUnavailableError,
-        JetStreamError.
+        If the connection has ended meanwhile, the aircraft is free for the next one. Raises
+        HelloError if another connection has it, NatsUnavailableError, JetStreamError.
         """
         self._claims += 1
         try:
             async with self.changes:
-                if self.lease is None:
-                    return await self._claim_from_others(token)
-                if self.air_lease.is_resumed_by(token):
-                    assert token is not None
-                    return token
-                if not self.air_lease.is_free(self._poller.tick()):
-                    raise _refusal(token)
-                self._take()
-                token = new_token()
-                await self.write(air=token)
-                if (silent := self.air_lease.owner) is not None:
-                    silent.fail("replaced by another connection of this aircraft")
-                self.air_lease.reserve(token, self._poller.tick())
-                return token
+                claimed = await self._claim(token)
+                if connection.failure is not None and claimed != token:
+                    self.air_lease.release()  # for a token that no client has
+                return claimed
         finally:
             self._claims -= 1
+
+    async def _claim(self, token: str | None) -> str:
+        if self.lease is None:
+            return await self._claim_from_others(token)
+        if self.air_lease.is_resumed_by(token):
+            assert token is not None
+            return token
+        if not self.air_lease.is_free(self._poller.tick()):
+            raise _refusal(token)
+        self._take()
+        token = new_token()
+        await self.write(air=token)
+        if (silent := self.air_lease.owner) is not None:
+            silent.fail("replaced by another connection of this aircraft")
+        self.air_lease.reserve(token, self._poller.tick())
+        return token
 
     def _take(self) -> None:
         quota = self._node.quota
