@@ -89,9 +89,7 @@ class ClusterHandshake(Handshake):
                     session.air_lease.release()
                     super(ClusterHandshake, self)._admit_legacy(connection, silent)
 
-                self._wait(
-                    connection, session.claim(connection, None), admit, self._refuse_legacy
-                )
+                self._wait(connection, session.claim(connection, None), admit, self._refuse_legacy)
                 return
             if not session.is_home:
                 self._check_guests(session)
