@@ -1,11 +1,14 @@
 """Three proxies on three NATS servers: the hop between nodes, the loss of a leader or a host."""
 
 import itertools
+import json
 import math
+import subprocess
+import sys
 import tempfile
 import time
-from collections.abc import Iterable
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +36,7 @@ ELSEWHERE_S = 15.0
 DEADLINE_S = 60.0
 RATE_HZ = 10
 """Of each of the 100 pairs: proxies, NATS servers and the load share two cores."""
+BARE = "a bare Twisted relay on two nodes"
 RUNS = itertools.count()
 """The names of a run are taken for 3 s after it."""
 
@@ -41,10 +45,12 @@ def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[
     """Yield the hop between two nodes beside pairs of one node, the rounds interleaved."""
     relays = [program.pid for program in nodes.programs[:2]]
     nats = [process.pid for process in servers.processes]
-    local, across = [], []
-    for _ in range(rounds):
-        local.append(measure(nodes, 0, 0, relays, nats, seconds))
-        across.append(measure(nodes, 0, 1, relays, nats, seconds))
+    local, across, least = [], [], []
+    with bare_relays(servers.ports[:2]) as bare:
+        for _ in range(rounds):
+            local.append(measure(nodes, 0, 0, relays, nats, seconds))
+            across.append(measure(nodes, 0, 1, relays, nats, seconds))
+            least.append(round_trips(*bare, nats, seconds))
     added = [[far[i] - near[i] for near, far in zip(local, across, strict=True)] for i in (0, 1)]
     yield compared("cluster, added p50 of a round trip", "us", added[0], limit=Limit(ADDED_P50_US))
     yield compared("cluster, added p99 of a round trip", "us", added[1], limit=Limit(ADDED_P99_US))
@@ -55,15 +61,37 @@ def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[
         far, near = ([sum(run[parts]) for run in runs] for runs in (across, local))
         name = f"cluster, CPU of a round trip, {what}"
         yield compared(name, "us", far, "pairs of one node", near, Limit(limit))
+        yield compared(name, "us", far, BARE, [sum(run[parts]) for run in least])
+
+
+@contextmanager
+def bare_relays(nats_ports: Sequence[int]) -> Iterator[tuple[list[int], list[int]]]:
+    """Run two bare relays; yield the port of aircraft at one, of grounds at the other, and pids."""
+    with ExitStack() as stack:
+        relays, ports = [], []
+        for side, port in enumerate(nats_ports):
+            command = [sys.executable, "-m", "bench.cluster_peer", str(port)]
+            relay = stack.enter_context(subprocess.Popen(command, stdout=subprocess.PIPE))
+            stack.callback(relay.kill)
+            relays.append(relay.pid)
+            assert relay.stdout is not None
+            ports.append(json.loads(relay.stdout.readline())[side])
+        yield ports, relays
 
 
 def measure(
     nodes: Any, air: int, ground: int, relays: list[int], nats: list[int], seconds: float
 ) -> tuple[float, float, float, float]:
     """Return p50 and p99 of the round trip, CPU of relays and of NATS for one; microseconds."""
-    programs = nodes.programs
-    ports = {"echo": programs[air].airborne_port, "send": programs[ground].ground_port}
-    load = Load("proxy", seconds, prefix=f"run{next(RUNS)}", rate_hz=RATE_HZ, **ports)
+    ports = nodes.programs[air].airborne_port, nodes.programs[ground].ground_port
+    return round_trips(ports, relays, nats, seconds)
+
+
+def round_trips(
+    ports: Sequence[int], relays: list[int], nats: list[int], seconds: float
+) -> tuple[float, float, float, float]:
+    more = {"echo": ports[0], "send": ports[1], "rate_hz": RATE_HZ}
+    load = Load("proxy", seconds, prefix=f"run{next(RUNS)}", **more)
     load.hear("ready")
     load.hear("warm")
     begin = [sum(map(tree_cpu_s, pids)) for pids in (relays, nats)]
