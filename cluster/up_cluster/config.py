@@ -75,19 +75,24 @@ class FleetConfig:
         """Return the fields of CONNECT that identify this program. Raises ClusterError."""
         if not self.credentials:
             return {}
-        path = folder / self.credentials
-        try:
-            if path.stat().st_mode & 0o077:
-                reason = f"others may read {path}: run 'chmod 600 {path}'"
-                raise ClusterError("cluster_credentials", reason)
-            text = path.read_text(encoding="utf-8").strip()
-        except (OSError, UnicodeDecodeError) as error:
-            reason = f"cannot read {path}: {getattr(error, 'strerror', None) or error}"
-            raise ClusterError("no_file", reason) from None
+        text = read_secret(folder / self.credentials)
         user, colon, password = text.partition(":")
-        if not text or "\n" in text:
-            raise ClusterError("cluster_credentials", f"{path} is not one line")
         return {"user": user, "pass": password} if colon else {"auth_token": text}
+
+
+def read_secret(path: Path) -> str:
+    """Return the one line of a file that only its owner may read. Raises ClusterError."""
+    try:
+        if path.stat().st_mode & 0o077:
+            reason = f"others may read {path}: run 'chmod 600 {path}'"
+            raise ClusterError("cluster_credentials", reason)
+        text = path.read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = f"cannot read {path}: {getattr(error, 'strerror', None) or error}"
+        raise ClusterError("no_file", reason) from None
+    if not text or "\n" in text:
+        raise ClusterError("cluster_credentials", f"{path} is not one line")
+    return text
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from up_cluster import nats_protocol as nats
+from up_cluster.errors import RefusedError, WrongRevisionError
 from up_cluster.nats_client import NatsClient
 
 STREAM_NAME_EXISTS = 10058
@@ -21,18 +22,6 @@ _WRONG_LAST_SEQUENCE = 10071
 _NO_MESSAGE = 10037
 
 
-class JetStreamError(Exception):
-    """JetStream refused a request; `code` is its err_code."""
-
-    def __init__(self, code: int, reason: str) -> None:
-        super().__init__(f"JetStream refused: {reason} ({code})")
-        self.code = code
-
-
-class WrongRevisionError(JetStreamError):
-    """The subject has another last message than the write expected."""
-
-
 class Stored(NamedTuple):
     """A message of a stream."""
 
@@ -43,7 +32,7 @@ class Stored(NamedTuple):
 
 
 async def api(client: NatsClient, what: str, body: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the answer of the API. Raises NatsUnavailableError, JetStreamError."""
+    """Return the answer of the API. Raises UnavailableError, RefusedError."""
     answer = await client.request(f"$JS.API.{what}", json.dumps(body).encode())
     return _checked(answer.payload)
 
@@ -53,7 +42,7 @@ async def write(
 ) -> int:
     """Write a message and return its sequence.
 
-    Raises WrongRevisionError, JetStreamError, NatsUnavailableError: whether it was written is
+    Raises WrongRevisionError, RefusedError, UnavailableError: whether it was written is
     unknown then.
     """
     answer = await client.request(subject, payload, headers=headers)
@@ -64,11 +53,11 @@ async def stored(client: NatsClient, stream: str, query: Mapping[str, Any]) -> S
     """Return the message that a query selects, `last_by_subj` or `seq` with `next_by_subj`.
 
     None without such a message. A leader that a partition has cut off answers with old ones for
-    some seconds. Raises NatsUnavailableError, JetStreamError.
+    some seconds. Raises UnavailableError, RefusedError.
     """
     try:
         found = await api(client, f"STREAM.MSG.GET.{stream}", query)
-    except JetStreamError as error:
+    except RefusedError as error:
         if error.code == _NO_MESSAGE:
             return None
         raise
@@ -79,13 +68,13 @@ async def stored(client: NatsClient, stream: str, query: Mapping[str, Any]) -> S
 
 
 def _checked(payload: bytes) -> dict[str, Any]:
-    """Return JetStream's answer. Raises JetStreamError."""
+    """Return JetStream's answer. Raises RefusedError."""
     try:
         answer = json.loads(payload)
     except ValueError:
-        raise JetStreamError(0, f"not JSON: {payload[:60]!r}") from None
+        raise RefusedError(0, f"not JSON: {payload[:60]!r}") from None
     error = answer.get("error")
     if error:
         code, text = int(error.get("err_code", 0)), str(error.get("description", ""))
-        raise (WrongRevisionError if code == _WRONG_LAST_SEQUENCE else JetStreamError)(code, text)
+        raise (WrongRevisionError if code == _WRONG_LAST_SEQUENCE else RefusedError)(code, text)
     return dict(answer)

@@ -13,16 +13,9 @@ from twisted.internet.defer import Deferred
 from up.log import UpLogger
 from up.system.clock import Clock, Timer, cancel
 from up_cluster import nats_protocol as nats
-from up_cluster.jetstream import (
-    EXPECTED,
-    NANOSECONDS,
-    STREAM_NAME_EXISTS,
-    JetStreamError,
-    api,
-    stored,
-    write,
-)
-from up_cluster.nats_client import NatsClient, NatsUnavailableError
+from up_cluster.errors import RefusedError, UnavailableError
+from up_cluster.jetstream import EXPECTED, NANOSECONDS, STREAM_NAME_EXISTS, api, stored, write
+from up_cluster.nats_client import NatsClient
 
 MARKER_TTL_S = 60
 """How long the marker of an expired or purged key stays: watchers that were away see it."""
@@ -47,8 +40,8 @@ class Entry(NamedTuple):
 class KeyValueBucket:
     """One bucket. Keys are words of `A-Z a-z 0-9 - _ =` with dots between them.
 
-    The methods raise NatsUnavailableError without an answer (whether a write was done is unknown
-    then), JetStreamError for a refusal.
+    The methods raise UnavailableError without an answer (whether a write was done is unknown
+    then), RefusedError for a refusal.
     """
 
     def __init__(self, client: NatsClient, name: str) -> None:
@@ -72,12 +65,12 @@ class KeyValueBucket:
         }
         try:
             await api(self._client, f"STREAM.CREATE.{self._stream}", config)
-        except JetStreamError as error:
+        except RefusedError as error:
             if error.code != STREAM_NAME_EXISTS:
                 raise
             found = await api(self._client, f"STREAM.INFO.{self._stream}", {})
             if not found["config"].get("allow_msg_ttl"):
-                raise JetStreamError(error.code, f"{self._stream} exists without a TTL") from None
+                raise RefusedError(error.code, f"{self._stream} exists without a TTL") from None
 
     async def check(self) -> None:
         """Raise the error of a bucket that does not exist."""
@@ -202,7 +195,7 @@ class Watch:
                     "num_replicas": 1,
                 }
             )
-        except (NatsUnavailableError, JetStreamError):
+        except (UnavailableError, RefusedError):
             if sid == self._sid:
                 cancel(self._timer)
                 self._timer = self._clock.callLater(WATCH_RETRY_S, self.start)

@@ -27,9 +27,8 @@ from twisted.internet.defer import Deferred, DeferredLock
 
 from up.log import UpLogger
 from up.system.clock import Clock, Timer, cancel
-from up_cluster.jetstream import JetStreamError, WrongRevisionError
+from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
 from up_cluster.key_value import Entry, KeyValueBucket
-from up_cluster.nats_client import NatsUnavailableError
 
 TTL_S = 15
 """Longer than an election of the bucket's leader, 5 to 7 s."""
@@ -89,7 +88,7 @@ class Lease:
 class LeaseStore:
     """The leases of one node, whose id no other process ever has.
 
-    Raises NatsUnavailableError when the majority of the servers does not answer in time. Whether
+    Raises UnavailableError when the majority of the servers does not answer in time. Whether
     the write was done is unknown then; if it was, the entry expires, or this node takes it over.
     """
 
@@ -140,7 +139,7 @@ class LeaseStore:
                 self._set_state(stale, LeaseState.LOST)
             self._schedule(lease, self._pause_s)
             return lease
-        raise NatsUnavailableError("contended")
+        raise UnavailableError("contended")
 
     async def read(self, key: str) -> Record | None:
         """Return a key's record, which may be old; None without one."""
@@ -172,7 +171,7 @@ class LeaseStore:
                 await self._bucket.purge(lease.key, expected=lease.revision)
             else:
                 await self._put(lease.key, data, lease.fence, lease.revision)
-        except (NatsUnavailableError, JetStreamError):
+        except (UnavailableError, RefusedError):
             pass
         finally:
             lease.lock.release()
@@ -206,7 +205,7 @@ class LeaseStore:
             lease.data, lease.proven_until_s = data, began_s + self._ttl_s
             self._set_state(lease, LeaseState.HELD, is_news=is_new)
             return
-        raise NatsUnavailableError("contended")
+        raise UnavailableError("contended")
 
     async def _renew_in_time(self, lease: Lease) -> None:
         pause_s = self._pause_s
@@ -214,7 +213,7 @@ class LeaseStore:
             await self.update(lease, lease.data)
         except LeaseLostError:
             return
-        except (NatsUnavailableError, JetStreamError):
+        except (UnavailableError, RefusedError):
             pause_s = RETRY_S
             if self._clock.seconds() >= lease.proven_until_s:
                 self._set_state(lease, LeaseState.UNPROVEN)

@@ -10,18 +10,19 @@ import psutil
 from twisted.internet.defer import CancelledError, Deferred
 from twisted.python.failure import Failure
 
-from up.log import UpLogger
+from up.log import Limited, UpLogger
 from up.system.clock import Timer, cancel
 from up.tls.files import TLSFiles
 from up_cluster import nats_protocol as nats
 from up_cluster.config import FleetConfig
-from up_cluster.jetstream import JetStreamError
+from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.lease import RENEWALS, TTL_S, LeaseStore
-from up_cluster.nats_client import NatsClient, NatsUnavailableError
+from up_cluster.nats_client import NatsClient
 
 LEASES = "up-leases"
 BUCKET_RETRY_S = 1.0
+LOG_INTERVAL_S = 60.0
 _log = UpLogger.get_logger("cluster")
 
 Action = Callable[[dict[str, Any]], "dict[str, Any] | Awaitable[dict[str, Any]]"]
@@ -85,6 +86,7 @@ class Membership:
         self.is_ready = False
         """NATS is connected and has the buckets."""
         self._timer: Timer | None = None
+        self._limited = Limited(reactor, LOG_INTERVAL_S)
 
     def start(self) -> None:
         self.client.subscribe(self.subject("members"), self._on_request)
@@ -93,6 +95,7 @@ class Membership:
 
     async def stop(self) -> None:
         cancel(self._timer)
+        self._limited.stop()
         await self.client.stop()
 
     def subject(self, rest: str) -> str:
@@ -103,7 +106,7 @@ class Membership:
         return f"{kind}.{self._config.tenant}.{word(aircraft)}"
 
     async def ask(self, member: str, request: Mapping[str, Any], limit_s: float) -> dict[str, Any]:
-        """Return the answer of a member. Raises NatsUnavailableError; the request may be done."""
+        """Return the answer of a member. Raises UnavailableError; the request may be done."""
         return await ask(self.client, self.subject(f"member.{member}"), request, limit_s)
 
     def _on_connected(self, is_connected: bool) -> None:
@@ -120,8 +123,9 @@ class Membership:
         try:
             for make in self.makers:
                 await make(self._replicas)
-        except (NatsUnavailableError, JetStreamError) as error:
-            _log.debug("no bucket yet: {reason}", code="no_bucket", reason=str(error))
+        except (UnavailableError, RefusedError) as error:
+            log = _log.debug if isinstance(error, UnavailableError) else _log.warn
+            self._limited.log(log, "no bucket yet: {reason}", code="no_bucket", reason=str(error))
             if self.client.is_connected:
                 self._timer = self._reactor.callLater(BUCKET_RETRY_S, self._make_buckets)
         else:
@@ -152,12 +156,12 @@ class Membership:
 async def ask(
     client: NatsClient, subject: str, request: Mapping[str, Any], limit_s: float
 ) -> dict[str, Any]:
-    """Return a member's answer. Raises NatsUnavailableError, also for a malformed one."""
+    """Return a member's answer. Raises UnavailableError, also for a malformed one."""
     answer = await client.request(subject, json.dumps(request).encode(), limit_s=limit_s)
     try:
         return parse(answer.payload)
     except ValueError:
-        raise NatsUnavailableError("malformed") from None
+        raise UnavailableError("malformed") from None
 
 
 def parse(payload: bytes) -> dict[str, Any]:

@@ -26,6 +26,7 @@ from up.tls.protocol import TLSClientEndpoint
 from up.version import VERSION
 from up_cluster import nats_protocol as nats
 from up_cluster.config import Server
+from up_cluster.errors import UnavailableError
 
 CONNECT_LIMIT_S = 2.0
 PING_S = 0.5
@@ -45,17 +46,6 @@ WriteTo = Callable[[Any, bytes], None]
 def write_to(transport: Any, data: bytes) -> None:
     """Write as any reactor does."""
     transport.write(data)
-
-
-class NatsUnavailableError(Exception):
-    """A request got no answer: `code` is `no_connection`, `timeout` or `no_responders`.
-
-    After `timeout` and `no_connection` it is unknown whether the request was carried out.
-    """
-
-    def __init__(self, code: str) -> None:
-        super().__init__(f"no answer from NATS ({code})")
-        self.code = code
 
 
 class NatsClient:
@@ -172,9 +162,9 @@ class NatsClient:
         headers: Mapping[str, str] | None = None,
         limit_s: float = REQUEST_LIMIT_S,
     ) -> nats.Message:
-        """Return the first answer. Raises NatsUnavailableError; a request is never dropped."""
+        """Return the first answer. Raises UnavailableError; a request is never dropped."""
         if self._link is None:
-            raise NatsUnavailableError("no_connection")
+            raise UnavailableError("no_connection")
         self._next_request += 1
         key = str(self._next_request)
         answer: Deferred[nats.Message] = Deferred()
@@ -184,12 +174,12 @@ class NatsClient:
         try:
             message = await answer
         except CancelledError:
-            raise NatsUnavailableError("timeout") from None
+            raise UnavailableError("timeout") from None
         finally:
             cancel(timer)
             self._requests.pop(key, None)
         if message.header and nats.parse_headers(message.header)[0] == 503:
-            raise NatsUnavailableError("no_responders")
+            raise UnavailableError("no_responders")
         return message
 
     def connect(self, protocolFactory: Any) -> Deferred[Any]:  # noqa: N803 - Twisted's name
@@ -273,7 +263,7 @@ class NatsClient:
     def _fail_request(self, key: str, code: str) -> None:
         answer = self._requests.pop(key, None)
         if answer is not None:
-            answer.errback(NatsUnavailableError(code))
+            answer.errback(UnavailableError(code))
 
     def _fail_requests(self) -> None:
         for key in list(self._requests):

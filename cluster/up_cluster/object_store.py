@@ -12,32 +12,29 @@ from base64 import urlsafe_b64encode
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from twisted.internet.defer import Deferred
 
-from up_cluster.jetstream import (
-    EXPECTED,
-    STREAM_NAME_EXISTS,
-    JetStreamError,
-    api,
-    stored,
-    write,
-)
-from up_cluster.nats_client import NatsClient, NatsUnavailableError
+from up_cluster.errors import RefusedError, UnavailableError
+from up_cluster.jetstream import EXPECTED, STREAM_NAME_EXISTS, api, stored, write
+from up_cluster.nats_client import NatsClient
 
 CHUNK_BYTES = 128 * 1024
 ReadChunk = Callable[[int], "bytes | Deferred[bytes]"]
 """Returns the next bytes, at most as many as given; empty at the end."""
+InThread = Callable[..., "Deferred[Any]"]
+"""Calls a function with arguments in a thread."""
 
 
 class ObjectDamagedError(Exception):
-    """A stored object differs from the written one; `code` is `chunk_missing`, `digest` or `info`.
+    """A stored object differs from the written one; `code` is `chunk_missing`, `digest`, ...
 
     `revision` is that of the object, for the write that replaces it.
     """
 
-    def __init__(self, name: str, code: str, revision: int) -> None:
+    def __init__(self, name: str, code: str, revision: int | str) -> None:
         super().__init__(f"the stored object {name} is damaged ({code})")
         self.code = code
         self.revision = revision
@@ -57,7 +54,7 @@ class ObjectInfo(NamedTuple):
 class ObjectStore:
     """One bucket of objects.
 
-    The methods raise NatsUnavailableError without an answer, JetStreamError for a refusal.
+    The methods raise UnavailableError without an answer, RefusedError for a refusal.
     """
 
     def __init__(self, client: NatsClient, name: str) -> None:
@@ -80,7 +77,7 @@ class ObjectStore:
         }
         try:
             await api(self._client, f"STREAM.CREATE.{self._stream}", config)
-        except JetStreamError as error:
+        except RefusedError as error:
             if error.code != STREAM_NAME_EXISTS:
                 raise
 
@@ -99,6 +96,11 @@ class ObjectStore:
             )  # fmt: skip
         except (ValueError, KeyError, TypeError, AttributeError):
             raise ObjectDamagedError(name, "info", found.sequence) from None
+
+    async def put_file(self, name: str, path: Path, in_thread: InThread) -> None:
+        """Write an object from a file, which `in_thread` reads. Raises OSError, too."""
+        with await in_thread(path.open, "rb") as file:
+            await self.put(name, lambda size: in_thread(file.read, size))
 
     async def put(self, name: str, read: ReadChunk, expected: int | None = None) -> ObjectInfo:
         """Write an object, and remove the chunks that it replaces.
@@ -123,12 +125,12 @@ class ObjectStore:
                 headers[EXPECTED] = str(expected)
             is_whole = True
             revision = await write(self._client, self._meta(name), self._encode(info), headers)
-        except NatsUnavailableError:
+        except UnavailableError:
             # A whole object may have been written.
             if not is_whole:
                 self._abandoned.add(nuid)
             raise
-        except (JetStreamError, OSError):
+        except (RefusedError, OSError):
             await self._remove_chunks(nuid)
             raise
         if old is not None:
@@ -180,7 +182,7 @@ class ObjectStore:
             filter_ = {"filter": self._chunks(nuid)}
             await api(self._client, f"STREAM.PURGE.{self._stream}", filter_)
             self._abandoned.discard(nuid)
-        except (NatsUnavailableError, JetStreamError):
+        except (UnavailableError, RefusedError):
             pass
 
     def _chunks(self, nuid: str) -> str:

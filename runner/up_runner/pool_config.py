@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -9,6 +10,9 @@ from up.config import items, key
 from up.fields import Constraint
 from up_cluster.config import ClusterConfig
 from up_runner.request import LABEL, MAX_LABELS
+
+_BUCKET = re.compile(r"[a-z0-9][a-z0-9.-]{1,61}[a-z0-9]", re.ASCII)
+_ENDPOINT = re.compile(r"https?://[A-Za-z0-9._\[\]:-]+/?", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,10 +54,36 @@ class PoolConfig(ClusterConfig):
         maximum=60,
     )
 
+    s3_bucket: str = key(
+        "",
+        "Bucket of S3, or of a service with its API, for learned files and flights. It must exist "
+        "and honour conditional writes. Empty: the object store of NATS.",
+        max_length=63,
+    )
+    s3_endpoint: str = key(
+        "",
+        "Address of that service, as in https://s3.example.org:9000. Empty: Amazon S3.",
+        max_length=255,
+    )
+    s3_region: str = key("", "Region of the bucket. Empty: AWS_REGION.", max_length=32)
+    s3_credentials: str = key(
+        "",
+        "File with KEY:SECRET for S3, mode 600, relative to this file. Empty: as the AWS programs, "
+        "from the environment, ~/.aws or the role of the host.",
+        max_length=4096,
+    )
+
     def problems(self) -> Iterator[tuple[str, str]]:
         yield from ClusterConfig.problems(self)
         if self.servers and not self.address:
             yield "address", "must name this host for phones"
+        if self.s3_bucket and not _BUCKET.fullmatch(self.s3_bucket):
+            yield "s3_bucket", "must be 3 to 63 of a-z 0-9 . -"
+        if self.s3_endpoint and not _ENDPOINT.fullmatch(self.s3_endpoint):
+            yield "s3_endpoint", "must be as in https://s3.example.org:9000"
+        for name in ("s3_endpoint", "s3_region", "s3_credentials"):
+            if getattr(self, name) and not self.s3_bucket:
+                yield name, "needs s3_bucket"
         for label in self.labels:
             if not LABEL.fullmatch(label):
                 yield "labels", f"{label!r} is not a word of A-Z a-z 0-9 _ . -"

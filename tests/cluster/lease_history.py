@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from twisted.internet.defer import Deferred, gatherResults
 
 from tests.support.reactor import reactor, sleep, until
-from up_cluster.jetstream import JetStreamError, WrongRevisionError
+from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.lease import LeaseLostError, LeaseStore
-from up_cluster.nats_client import NatsClient, NatsUnavailableError
+from up_cluster.nats_client import NatsClient
 
 TTL_S = 2
 
@@ -74,7 +74,7 @@ async def compete(name, client, make, key, seed, end_s, history, is_enough):
     while (asked_s := reactor.seconds()) < end_s and not is_enough(history):
         try:
             lease = await leases.acquire(key, free_for(name))
-        except (TakenError, NatsUnavailableError, JetStreamError):
+        except (TakenError, UnavailableError, RefusedError):
             await sleep(draw.uniform(0.01, 0.2))
             continue
         from_s, fence = reactor.seconds(), lease.fence
@@ -90,7 +90,7 @@ async def compete(name, client, make, key, seed, end_s, history, is_enough):
             try:
                 if not hangs and draw.random() < 0.1:
                     await leases.update(lease, {"draw": draw.random()})
-            except (LeaseLostError, NatsUnavailableError, JetStreamError):
+            except (LeaseLostError, UnavailableError, RefusedError):
                 break
         history.append(Held(name, fence, asked_s, from_s, min(until_s, reactor.seconds())))
         await leases.release(lease)
@@ -103,7 +103,7 @@ async def create_bucket(client):
         try:
             await bucket.create(3)
             return bucket
-        except (NatsUnavailableError, JetStreamError):
+        except (UnavailableError, RefusedError):
             await sleep(0.2)
 
 

@@ -10,10 +10,9 @@ from tests.cluster.connected import connected
 from tests.cluster.lease_history import BlindBucket, Held, create_bucket, run, violations
 from tests.support.nats_servers import NatsServers
 from tests.support.reactor import reactor, run_in_reactor, sleep, until
-from up_cluster.jetstream import WrongRevisionError
+from up_cluster.errors import UnavailableError, WrongRevisionError
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.lease import LeaseLostError, LeaseState, LeaseStore
-from up_cluster.nats_client import NatsUnavailableError
 
 SEED = 18
 
@@ -124,7 +123,7 @@ class SlowBucket:
         return self.answers[-1]
 
     async def purge(self, key, *, expected):
-        raise NatsUnavailableError("timeout")
+        raise UnavailableError("timeout")
 
 
 def test_a_lease_that_is_released_during_a_failed_renewal_stays_lost():
@@ -136,6 +135,6 @@ def test_a_lease_that_is_released_during_a_failed_renewal_stays_lost():
     clock.advance(5)
     released = Deferred.fromCoroutine(store.release(lease))
     clock.advance(15)
-    bucket.answers[1].errback(NatsUnavailableError("timeout"))
+    bucket.answers[1].errback(UnavailableError("timeout"))
     assert released.called and lease.state is LeaseState.LOST
     assert clock.getDelayedCalls() == []

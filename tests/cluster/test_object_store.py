@@ -9,8 +9,8 @@ import pytest
 from tests.cluster.connected import connected
 from tests.support.nats_servers import NatsServers
 from tests.support.reactor import run_in_reactor
-from up_cluster.jetstream import EXPECTED, WrongRevisionError, api, stored, write
-from up_cluster.nats_client import NatsUnavailableError
+from up_cluster.errors import UnavailableError, WrongRevisionError
+from up_cluster.jetstream import EXPECTED, api, stored, write
 from up_cluster.object_store import CHUNK_BYTES, ObjectDamagedError, ObjectStore
 
 
@@ -60,9 +60,9 @@ async def life(server):
     def until_lost(_size):
         for part in parts:
             return part
-        raise NatsUnavailableError("timeout")
+        raise UnavailableError("timeout")
 
-    with pytest.raises(NatsUnavailableError):
+    with pytest.raises(UnavailableError):
         await store.put("lost", until_lost)
     newer = await store.put_bytes(name, b"new", newer.revision)
     state = (await api(client, "STREAM.INFO.OBJ_up-state", {}))["state"]

@@ -42,6 +42,16 @@ def test_an_error_has_its_line_and_key(text, key):
     assert key in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("s3_bucket", "Up"), ("s3_bucket", "a/b"), ("s3_endpoint", "s3.example.org"),
+     ("s3_region", "eu-north-1"), ("s3_credentials", "s3.txt"), ("s3_endpoint", "https://a/b")],
+)  # fmt: skip
+def test_s3_needs_a_bucket_and_the_address_of_a_service(key, value):
+    pool = PoolConfig(servers="nats://a", address="here", **{key: value})
+    assert {name for name, _ in pool.problems()} == {key}
+
+
 def test_only_a_black_box_stops_with_its_phone_or_is_given_up():
     black_box = policy_of(RunnerConfig())
     assert black_box.exit_delay_s == 60.0 and not black_box.always_restart

@@ -14,11 +14,11 @@ from twisted.python.failure import Failure
 
 from up.errors import UserError
 from up_cluster.config import FleetConfig
-from up_cluster.jetstream import NOT_ENABLED, STREAM_NOT_FOUND, JetStreamError
+from up_cluster.errors import RefusedError, UnavailableError
+from up_cluster.jetstream import NOT_ENABLED, STREAM_NOT_FOUND
 from up_cluster.key_value import Entry
 from up_cluster.lease import parse_record
 from up_cluster.membership import LEASES, Membership, aircraft_of, parse
-from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.nats_protocol import Message
 
 CONNECT_LIMIT_S = 10.0
@@ -85,7 +85,7 @@ class Fleet:
                     raise FleetError(text, "no_connection")
                 await self._check()
                 return await work()
-            except (NatsUnavailableError, JetStreamError) as error:
+            except (UnavailableError, RefusedError) as error:
                 raise FleetError(str(error), "no_answer") from None
             finally:
                 await self._client.stop()
@@ -107,7 +107,7 @@ class Fleet:
         where = f"NATS at {self._config.servers}"
         try:
             await self._member.bucket.check()
-        except (NatsUnavailableError, JetStreamError) as error:
+        except (UnavailableError, RefusedError) as error:
             if error.code in ("no_responders", *NOT_ENABLED):
                 text = (
                     f"{where} has no JetStream for this account (nats.conf: jetstream, accounts; "
@@ -203,7 +203,7 @@ class Fleet:
     async def _ask(self, member: str, request: dict[str, Any]) -> dict[str, Any]:
         try:
             answer = await self._member.ask(member, request, ANSWER_S)
-        except NatsUnavailableError as error:
+        except UnavailableError as error:
             text = f"the member {member} does not answer ({error.code})"
             raise FleetError(text, "no_answer", member=member) from None
         if answer.get("code"):
@@ -259,7 +259,7 @@ class Fleet:
         try:
             await done
         except TimeoutError:
-            raise NatsUnavailableError("timeout") from None
+            raise UnavailableError("timeout") from None
         finally:
             watch.stop()
         return found

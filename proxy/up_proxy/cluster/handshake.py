@@ -9,8 +9,7 @@ from twisted.python.failure import Failure
 
 from up.log import UpLogger
 from up.protocols.proxy_lines import CLUSTER, FULL, Accepted, Access, Hello, HelloError, Side
-from up_cluster.jetstream import JetStreamError
-from up_cluster.nats_client import NatsUnavailableError
+from up_cluster.errors import RefusedError, UnavailableError
 from up_proxy.aircraft import AircraftSession
 from up_proxy.cluster.session import ClusterSession
 from up_proxy.connection import Connection, Owner
@@ -130,7 +129,7 @@ class ClusterHandshake(Handshake):
                     admit(claimed)
             except HelloError as refusal:
                 error = refusal
-            except (NatsUnavailableError, JetStreamError):
+            except (UnavailableError, RefusedError):
                 error = HelloError(CLUSTER, "no lease: the cluster does not answer")
             if connection.failure is None:
                 connection.resume()

@@ -6,9 +6,8 @@ from twisted.internet.defer import Deferred
 
 from up.log import UpLogger
 from up.protocols.proxy_lines import CLUSTER, Access, ControlRelease, GroundLine
-from up_cluster.jetstream import JetStreamError
+from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.lease import LeaseLostError
-from up_cluster.nats_client import NatsUnavailableError
 from up_proxy.connection import Connection
 from up_proxy.ground_side import GroundSide
 from up_proxy.poller import Poller
@@ -54,7 +53,7 @@ class HomeGroundSide(GroundSide):
                 if ground in self.connections and ground.failure is None:
                     super()._grant(ground, notify)
                     self._session.announce()
-        except (NatsUnavailableError, JetStreamError, LeaseLostError):
+        except (UnavailableError, RefusedError, LeaseLostError):
             self._session.refused(CLUSTER)
         finally:
             self.granting = None

@@ -16,9 +16,8 @@ from up.protocols.proxy_lines import (
     HelloError,
     Side,
 )
-from up_cluster.jetstream import JetStreamError
+from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.lease import Lease, LeaseLostError, Record
-from up_cluster.nats_client import NatsUnavailableError
 from up_proxy.aircraft import AircraftSession, relay_to_all, without
 from up_proxy.cluster.guest_side import GuestSide
 from up_proxy.cluster.home_ground_side import HomeGroundSide
@@ -89,7 +88,7 @@ class ClusterSession(AircraftSession):
         """Make this node the home for an aircraft with this token; return its token from now on.
 
         If the connection has ended meanwhile, the aircraft is free for the next one. Raises
-        HelloError if another connection has it, NatsUnavailableError, JetStreamError.
+        HelloError if another connection has it, UnavailableError, RefusedError.
         """
         self._claims += 1
         try:
@@ -170,7 +169,7 @@ class ClusterSession(AircraftSession):
         return str(lease.data["air"])
 
     async def write(self, **changed: str | None) -> None:
-        """Write the present state with a change. Raises LeaseLostError, NatsUnavailableError."""
+        """Write the present state with a change. Raises LeaseLostError, UnavailableError."""
         lease = self.lease
         if lease is None:
             raise LeaseLostError(self.name)
@@ -372,5 +371,5 @@ def _refusal(token: str | None) -> HelloError:
 
 def _ignore_unavailable(failure: Any) -> None:
     """The next sweep tries again."""
-    if not failure.check(NatsUnavailableError, JetStreamError, LeaseLostError):
+    if not failure.check(UnavailableError, RefusedError, LeaseLostError):
         _log.failure("a lease failed on a bug", failure, code="proxy_bug")

@@ -9,11 +9,10 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from up_cluster.jetstream import JetStreamError
+from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.key_value import Entry, Watch
 from up_cluster.lease import Record, parse_record
 from up_cluster.membership import Membership, aircraft_of, parse
-from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.nats_protocol import Message
 from up_runner.pool.messages import decode_request
 from up_runner.pool.placement import FRESH_S, RunnerInfo
@@ -81,7 +80,7 @@ class PoolDirectory:
         """Read the holder of an aircraft: the watch may be later than a refusal."""
         try:
             entry = await self._member.bucket.get(self._member.key("instance", name))
-        except (NatsUnavailableError, JetStreamError):
+        except (UnavailableError, RefusedError):
             return
         if entry is not None:
             self._on_record(entry)

@@ -14,11 +14,9 @@ from twisted.internet.defer import Deferred, DeferredList, DeferredLock
 
 from up.log import UpLogger
 from up.system.deadline_watch import VARIABLE, now_s, read_deadline, write_deadline
-from up_cluster.jetstream import JetStreamError
+from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.lease import Lease, Record
 from up_cluster.membership import Membership, run, word
-from up_cluster.nats_client import NatsUnavailableError
-from up_cluster.object_store import ObjectStore
 from up_runner.config import RunnerConfig
 from up_runner.instance import Instance
 from up_runner.instance_config import ConfigurationRefused
@@ -26,7 +24,7 @@ from up_runner.instance_host import InstanceHost
 from up_runner.instances import STOPPING, Instances
 from up_runner.policy import ASLEEP
 from up_runner.pool.messages import encode_request
-from up_runner.pool.state_files import STATE_HOME, StateFiles
+from up_runner.pool.state_files import STATE_HOME, StateFiles, Store
 from up_runner.request import Request
 from up_runner.response import Problem
 
@@ -40,7 +38,7 @@ DEADLINE = "deadline"
 LEASE_LOST = Problem("lease_lost", "its lease has expired or is another host's")
 MOVING = Problem("moving", "it moves to another host")
 _STAYS_WANTED = frozenset((LEASE_LOST.code, MOVING.code, STOPPING.code))
-UNAVAILABLE = (NatsUnavailableError, JetStreamError)
+UNAVAILABLE = (UnavailableError, RefusedError)
 _log = UpLogger.get_logger("runner.pool")
 
 
@@ -75,7 +73,7 @@ class HostedInstances:
         reactor: Any,
         config: RunnerConfig,
         member: Membership,
-        store: ObjectStore,
+        store: Store,
         instances: Instances,
         host: InstanceHost,
         counts: Counter[str],
@@ -108,7 +106,7 @@ class HostedInstances:
         return self._locks.setdefault(name, DeferredLock())
 
     async def acquire(self, request: Request, *, is_orphan: bool = False) -> Hosted:
-        """Acquire the lease. Raises TakenError, NatsUnavailableError, JetStreamError."""
+        """Acquire the lease. Raises TakenError, UnavailableError, RefusedError."""
 
         def decide(record: Record | None) -> dict[str, Any]:
             if record is not None and record.node != self._member.id:
@@ -131,7 +129,7 @@ class HostedInstances:
         return StateFiles(self._store, self._host, name, prefix, learned)
 
     async def prepare(self, hosted: Hosted) -> None:
-        """Do what a start needs. Raises NatsUnavailableError, JetStreamError, OSError."""
+        """Do what a start needs. Raises UnavailableError, RefusedError, OSError."""
         await hosted.files.restore()
         await self._want(hosted)
         self._write_deadline(hosted)

@@ -16,8 +16,9 @@ from up.config.atomic_writer import write_atomically
 from up.log import UpLogger
 from up.system.clock import Timer, cancel
 from up.system.figures import Figure
+from up_cluster.config import ClusterError, read_secret
+from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.membership import Membership, run
-from up_cluster.nats_client import NatsUnavailableError
 from up_cluster.object_store import ObjectStore
 from up_runner.config import RunnerConfig
 from up_runner.instance_host import InstanceHost
@@ -37,6 +38,7 @@ from up_runner.pool.messages import (
 )
 from up_runner.pool.orphans import Orphans
 from up_runner.pool.placement import HEARTBEAT_S, RunnerInfo, ranking
+from up_runner.pool.state_files import Store
 from up_runner.request import MalformedRequest, Request
 from up_runner.response import Response
 
@@ -79,8 +81,7 @@ class Pool:
             replicas=config.pool.replicas,
         )
         self.id = self._member.id
-        store = ObjectStore(self._member.client, STORE)
-        self._member.makers.append(store.create)
+        store = self._new_store(folder, host)
         self._member.on_ready = self._on_ready
         self._member.on_connected = self._on_connected
         self._directory = PoolDirectory(reactor, self._member, self._counts)
@@ -97,6 +98,33 @@ class Pool:
         self._is_stopped = False
         self._sweep_timer: Timer | None = None
         self._beat_timer: Timer | None = None
+
+    def _new_store(self, folder: Path, host: InstanceHost) -> Store:
+        pool, makers = self._config.pool, self._member.makers
+        if not pool.s3_bucket:
+            nats_store = ObjectStore(self._member.client, STORE)
+            makers.append(nats_store.create)
+            return nats_store
+        try:
+            from up_cluster.s3_store import S3Store
+        except ImportError:
+            reason = "s3_bucket needs the Python package boto3: pip install 'raspilot[s3]'"
+            raise ClusterError("no_boto3", reason) from None
+        text = read_secret(folder / pool.s3_credentials) if pool.s3_credentials else ""
+        key, _, secret = text.partition(":")
+        try:
+            store = S3Store(
+                host.in_thread,
+                pool.s3_bucket,
+                endpoint=pool.s3_endpoint,
+                region=pool.s3_region,
+                key=key,
+                secret=secret,
+            )
+        except RefusedError as error:
+            raise ClusterError("s3_refused", str(error)) from None
+        makers.append(lambda _: store.create(pool.tenant))
+        return store
 
     def start(self) -> None:
         self._directory.start()
@@ -223,7 +251,7 @@ class Pool:
         try:
             message = {"action": action, **encode_request(request)}
             answer = await self._member.ask(runner, message, limit_s)
-        except NatsUnavailableError as error:
+        except UnavailableError as error:
             text = f"the runner {runner} of this aircraft does not answer ({error.code})"
             return failed(request.aircraft, NO_ANSWER, text)
         return decode_response(request.aircraft, answer)

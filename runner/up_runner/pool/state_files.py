@@ -7,13 +7,12 @@ import json
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from up.config.atomic_writer import write_atomically
 from up.log import UpLogger
-from up_cluster.jetstream import JetStreamError, WrongRevisionError
-from up_cluster.nats_client import NatsUnavailableError
-from up_cluster.object_store import ObjectDamagedError, ObjectStore
+from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
+from up_cluster.object_store import InThread, ObjectDamagedError
 from up_runner.instance_config import FOLDER, PROFILE_NOTE
 from up_runner.instance_host import InstanceHost
 
@@ -24,15 +23,31 @@ FLIGHTS = Path(STATE_HOME, "raspilot", "flights")
 _log = UpLogger.get_logger("runner.pool")
 
 
+class Store(Protocol):
+    """What `ObjectStore` and `S3Store` have in common; an object has `size` and `revision`."""
+
+    async def info(self, name: str, /) -> Any:
+        """Return what describes an object; None without it."""
+
+    async def get_bytes(self, info: Any, /) -> bytes:
+        """Return an object. Raises ObjectDamagedError."""
+
+    async def put_bytes(self, name: str, data: bytes, expected: Any, /) -> Any:
+        """Write an object if its revision is `expected`, 0: none. Raises WrongRevisionError."""
+
+    async def put_file(self, name: str, path: Path, in_thread: InThread, /) -> None:
+        """Write an object from a file. Raises OSError, too."""
+
+
 class StateFiles:
     """The files of one aircraft: from the store before a start, into it afterwards.
 
-    `prefix` begins the names of its objects. `restore` and `save` raise NatsUnavailableError and
-    JetStreamError; `restore` OSError.
+    `prefix` begins the names of its objects. `restore` and `save` raise UnavailableError and
+    RefusedError; `restore` OSError.
     """
 
     def __init__(
-        self, store: ObjectStore, host: InstanceHost, name: str, prefix: str, learned: Iterable[str]
+        self, store: Store, host: InstanceHost, name: str, prefix: str, learned: Iterable[str]
     ) -> None:
         self._store = store
         self._host = host
@@ -40,7 +55,7 @@ class StateFiles:
         self._object = f"{prefix}/state"
         self._prefix = prefix
         self._names = {each for name in learned for each in (name, f"{name}.good")}
-        self._revision = 0
+        self._revision: int | str = 0
         self._digests: set[str] = set()
         """Of what this runner wrote, or tried to."""
         self._stamp: object = None
@@ -96,10 +111,9 @@ class StateFiles:
         for path in await self._host.in_thread(lambda: sorted(folder.glob("*.mcap"))):
             name = f"{self._prefix}/flights/{path.name}"
             try:
-                with await self._host.in_thread(path.open, "rb") as file:
-                    await self._store.put(name, lambda size: self._host.in_thread(file.read, size))
+                await self._store.put_file(name, path, self._host.in_thread)
                 await self._host.in_thread(path.unlink)
-            except (NatsUnavailableError, JetStreamError, OSError) as error:
+            except (UnavailableError, RefusedError, OSError) as error:
                 text = "{name} is not saved, and stays on this host: {reason}"
                 _log.error(text, code="flight_not_saved", name=name, reason=str(error))
                 if isinstance(error, OSError):
@@ -108,9 +122,10 @@ class StateFiles:
             _log.info("{name} is saved", code="flight_saved", name=name)
         await self._host.in_thread(self._remove_empty)
 
-    async def _put(self, data: bytes, digest: str) -> int:
+    async def _put(self, data: bytes, digest: str) -> int | str:
         self._digests.add(digest)
-        return (await self._store.put_bytes(self._object, data, self._revision)).revision
+        written = await self._store.put_bytes(self._object, data, self._revision)
+        return written.revision  # type: ignore[no-any-return]
 
     async def _digest_of(self, info: Any) -> str:
         try:
@@ -160,7 +175,7 @@ class StateFiles:
                 (self._folder / folder).rmdir()
 
 
-def _files_in(data: bytes, name: str, revision: int) -> dict[str, Any]:
+def _files_in(data: bytes, name: str, revision: int | str) -> dict[str, Any]:
     """Return a stored document. Raises ObjectDamagedError."""
     try:
         found = json.loads(data)

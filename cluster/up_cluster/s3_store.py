@@ -1,0 +1,165 @@
+"""An object store at Amazon S3, or at a service with its API, by boto3.
+
+https://docs.aws.amazon.com/AmazonS3/latest/userguide/conditional-writes.html
+"""
+
+import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import boto3
+from boto3.exceptions import Boto3Error
+from botocore.config import Config
+from botocore.exceptions import BotoCoreError, ClientError, FlexibleChecksumError, HTTPClientError
+from botocore.exceptions import ConnectionError as NoConnectionError
+
+from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
+from up_cluster.object_store import InThread, ObjectDamagedError
+
+CONNECT_LIMIT_S, READ_LIMIT_S = 2.0, 5.0
+ATTEMPTS = 2
+UNCONDITIONAL = "unconditional"
+"""Code of the refusal of a service that ignores the condition of a write."""
+_PROBE = "conditional-write"
+_DIGEST = "sha256"
+_NOT_FOUND = "404", "NoSuchKey"
+_WRONG_REVISION = "PreconditionFailed", "ConditionalRequestConflict"
+
+
+class S3Object(NamedTuple):
+    """Describes an object; `revision` is its ETag."""
+
+    name: str
+    size: int
+    revision: str
+    digest: str
+    """SHA-256; empty for a file."""
+
+
+class S3Store:
+    """One bucket, with the methods of `ObjectStore` that the pool needs.
+
+    They, and the constructor, raise UnavailableError without an answer, RefusedError for a refusal. Each write is
+    repeated once without an answer, so WrongRevisionError may mean an own write.
+    """
+
+    def __init__(
+        self,
+        in_thread: InThread,
+        bucket: str,
+        *,
+        endpoint: str = "",
+        region: str = "",
+        key: str = "",
+        secret: str = "",
+    ) -> None:
+        self._in_thread = in_thread
+        self._bucket = bucket
+        limits = Config(
+            connect_timeout=CONNECT_LIMIT_S,
+            read_timeout=READ_LIMIT_S,
+            retries={"total_max_attempts": ATTEMPTS, "mode": "standard"},
+        )
+        with _translated():
+            self._client: Any = boto3.client(
+                "s3",
+                endpoint_url=endpoint or None,
+                region_name=region or None,
+                aws_access_key_id=key or None,
+                aws_secret_access_key=secret or None,
+                config=limits,
+            )
+
+    async def create(self, prefix: str) -> None:
+        """Check the bucket, which must exist, with an object below `prefix`.
+
+        Raises RefusedError with the code UNCONDITIONAL if the service ignores conditions: two hosts
+        could then overwrite each other's state.
+        """
+        name = f"{prefix}/{_PROBE}"
+        await self.put_bytes(name, b"")
+        try:
+            await self.put_bytes(name, b"", "")
+        except WrongRevisionError:
+            return
+        raise RefusedError(UNCONDITIONAL, "it ignores the condition of a write", "S3")
+
+    async def info(self, name: str) -> S3Object | None:
+        """Return what describes an object; None without it."""
+        try:
+            found = await self._call("head_object", Key=name)
+        except RefusedError as error:
+            if error.code in _NOT_FOUND:
+                return None
+            raise
+        digest = found["Metadata"].get(_DIGEST, "")
+        return S3Object(name, int(found["ContentLength"]), str(found["ETag"]), digest)
+
+    async def put_bytes(self, name: str, data: bytes, expected: object = None) -> S3Object:
+        """Write an object; with `expected` only if its revision is this one, '' or 0: no object.
+
+        Raises WrongRevisionError; nothing is replaced then.
+        """
+        condition: dict[str, Any] = {}
+        if expected is not None:
+            condition = {"IfMatch": expected} if expected else {"IfNoneMatch": "*"}
+        digest = hashlib.sha256(data).hexdigest()
+        try:
+            done = await self._call(
+                "put_object", Key=name, Body=data, Metadata={_DIGEST: digest}, **condition
+            )
+        except RefusedError as error:
+            if error.code in _WRONG_REVISION or (expected and error.code in _NOT_FOUND):
+                raise WrongRevisionError(error.code, name, "S3") from None
+            raise
+        return S3Object(name, len(data), str(done["ETag"]), digest)
+
+    async def put_file(self, name: str, path: Path, in_thread: InThread) -> None:
+        """Write an object from a file, in parts if it is large. Raises OSError, too."""
+
+        def upload() -> None:
+            with _translated():
+                self._client.upload_file(str(path), self._bucket, name)
+
+        await in_thread(upload)
+
+    async def get_bytes(self, info: S3Object) -> bytes:
+        """Return an object whose size is known to be small. Raises ObjectDamagedError."""
+
+        def read() -> bytes:
+            with _translated():
+                found = self._client.get_object(Bucket=self._bucket, Key=info.name)
+                try:
+                    return bytes(found["Body"].read())
+                except FlexibleChecksumError:
+                    raise ObjectDamagedError(info.name, "checksum", info.revision) from None
+
+        data: bytes = await self._in_thread(read)
+        if info.digest and hashlib.sha256(data).hexdigest() != info.digest:
+            raise ObjectDamagedError(info.name, "digest", info.revision)
+        return data
+
+    async def _call(self, method: str, **fields: Any) -> dict[str, Any]:
+        def call() -> dict[str, Any]:
+            with _translated():
+                return dict(getattr(self._client, method)(Bucket=self._bucket, **fields))
+
+        answer: dict[str, Any] = await self._in_thread(call)
+        return answer
+
+
+@contextmanager
+def _translated() -> Iterator[None]:
+    """Raise the errors of a store in place of those of boto3."""
+    try:
+        yield
+    except ClientError as error:
+        fields = error.response.get("Error", {})
+        code, text = str(fields.get("Code", "")), str(fields.get("Message", ""))
+        raise RefusedError(code, text, "S3") from None
+    except (HTTPClientError, NoConnectionError) as error:
+        raise UnavailableError(type(error).__name__, "S3") from None
+    except (BotoCoreError, Boto3Error) as error:
+        raise RefusedError(type(error).__name__, str(error), "S3") from None

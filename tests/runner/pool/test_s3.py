@@ -1,0 +1,127 @@
+"""The files of a pool's instances in a real S3 service: the store, and two runners with it."""
+
+import threading
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import pytest
+from twisted.internet.threads import deferToThread
+
+from tests.cluster.fleet.up_fleet import UpFleet
+from tests.runner.pool.runner_pool import RunnerPool
+from tests.runner.pool.test_state_files import move
+from tests.support.nats_servers import NatsServers
+from tests.support.reactor import run_in_reactor
+from tests.support.s3_server import BUCKET, KEY, SECRET, S3Server
+from tests.support.waiting import until
+from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
+from up_cluster.object_store import ObjectDamagedError
+from up_cluster.s3_store import UNCONDITIONAL, S3Store
+from up_runner.pool.state_files import FLIGHTS
+
+
+@pytest.fixture(scope="module")
+def s3(tmp_path_factory):
+    with S3Server(tmp_path_factory.mktemp("s3")) as server:
+        yield server
+
+
+def store_at(endpoint, bucket=BUCKET, secret=SECRET):
+    more = {"endpoint": endpoint, "region": "eu-north-1", "key": KEY, "secret": secret}
+    return S3Store(deferToThread, bucket, **more)
+
+
+def test_files_move_from_host_to_host(s3, tmp_path):
+    run_in_reactor(move, store_at(s3.endpoint), tmp_path)
+
+
+def test_only_the_expected_revision_is_replaced(s3):
+    run_in_reactor(replace, s3)
+
+
+async def replace(s3):
+    store, name = store_at(s3.endpoint), "t/replaced/state"
+    await store.create("t")
+    with pytest.raises(WrongRevisionError):
+        await store.put_bytes(name, b"1", '"0"')
+    first = await store.put_bytes(name, b"1", 0)
+    with pytest.raises(WrongRevisionError):
+        await store.put_bytes(name, b"2", 0)
+    second = await store.put_bytes(name, b"2", first.revision)
+    with pytest.raises(WrongRevisionError):
+        await store.put_bytes(name, b"3", first.revision)
+    assert await store.info(name) == second
+    assert await store.get_bytes(second) == b"2"
+    # Somebody else wrote it: the digest is not that of the content.
+    metadata = {"sha256": "0" * 64}
+    s3.client().put_object(Bucket=BUCKET, Key=name, Body=b"other", Metadata=metadata)
+    with pytest.raises(ObjectDamagedError):
+        await store.get_bytes(await store.info(name))
+
+
+def test_a_refusal_and_no_answer(s3):
+    run_in_reactor(refuse, s3)
+
+
+async def refuse(s3):
+    for store, code in (
+        (store_at(s3.endpoint, secret="wrong"), "SignatureDoesNotMatch"),
+        (store_at(s3.endpoint, bucket="absent"), "NoSuchBucket"),
+    ):
+        with pytest.raises(RefusedError) as refused:
+            await store.get_bytes(await store_at(s3.endpoint).put_bytes("t/x", b""))
+        assert refused.value.code == code
+    with pytest.raises(UnavailableError):
+        await store_at("http://127.0.0.1:1").info("t/x")
+
+
+class Ignorant(BaseHTTPRequestHandler):
+    """Takes every write, as services do that do not know conditions."""
+
+    def do_PUT(self):
+        self.rfile.read(int(self.headers.get("Content-Length", 0)))
+        self.send_response(200)
+        self.send_header("ETag", '"0"')
+        self.send_header("Content-Length", "0")
+        self.end_headers()
+
+    def log_message(self, *_):
+        """Do not print."""
+
+
+def test_a_service_that_ignores_conditions_is_refused():
+    with ThreadingHTTPServer(("127.0.0.1", 0), Ignorant) as server:
+        threading.Thread(target=server.serve_forever).start()
+        store = store_at(f"http://127.0.0.1:{server.server_port}")
+        try:
+            with pytest.raises(RefusedError) as refused:
+                run_in_reactor(store.create, "t")
+        finally:
+            server.shutdown()
+    assert refused.value.code == UNCONDITIONAL
+
+
+def test_a_dead_host_leaves_its_files_to_another(s3, tmp_path, short_path):
+    (tmp_path / "nats").mkdir()
+    s3.credentials(tmp_path / "s3.txt")
+    section = {**s3.pool, "s3_credentials": str(tmp_path / "s3.txt")}
+    with (
+        NatsServers(tmp_path / "nats", 1) as servers,
+        RunnerPool(servers, short_path, 2, pool=section) as pool,
+    ):
+        host = pool.host_of(first := pool.runners[0].spawn("glider"))
+        (host.run_folder / "glider" / "config" / "mission.json").write_text('{"plan": 1}')
+        host.logs("state_saved", files=1)
+        pool.kill_host(host)
+        second = pool.running_at(other := pool.others(host)[0], "glider")
+        assert second["pid"] != first["pid"]
+        moved = other.run_folder / "glider" / "config" / "mission.json"
+        assert moved.read_text() == '{"plan": 1}'
+        flights = other.run_folder / "glider" / FLIGHTS
+        flights.mkdir(parents=True)
+        (flights / "0001-a.mcap").write_bytes(b"flight")
+        fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
+        fleet.ask("kick", "glider", "--instance")
+        name = f"{pool.tenant}/glider/flights/0001-a.mcap"
+        until(lambda: not flights.exists(), "the flight has left its host")
+        found = s3.client().get_object(Bucket=BUCKET, Key=name)
+        assert found["Body"].read() == b"flight"

@@ -1,0 +1,78 @@
+"""A real S3 service, SeaweedFS, on the loopback."""
+
+import json
+import shutil
+import subprocess
+import sysconfig
+from pathlib import Path
+
+import boto3
+from botocore.exceptions import BotoCoreError, ClientError
+
+from tests.support.nats_servers import free_ports
+from tests.support.tools import unavailable
+from tests.support.waiting import DEADLINE_S, until
+
+KEY, SECRET, BUCKET = "raspilot", "secret-of-the-tests", "flights"
+_PORTS = ("master.port", "master.port.grpc", "volume.port", "volume.port.grpc", "filer.port",
+          "filer.port.grpc", "s3.port", "s3.port.grpc")  # fmt: skip
+
+
+class S3Server:
+    """One server with an empty bucket, as a context; it ends with it."""
+
+    def __init__(self, folder):
+        program = shutil.which("weed", path=sysconfig.get_path("scripts")) or shutil.which("weed")
+        if program is None:
+            unavailable("weed is not installed (SeaweedFS 4; its wheel is for x86_64 only)")
+        self._folder = Path(folder)
+        ports = dict(zip(_PORTS, free_ports(len(_PORTS)), strict=True))
+        self.endpoint = f"http://127.0.0.1:{ports['s3.port']}"
+        self.pool = {"s3_bucket": BUCKET, "s3_endpoint": self.endpoint}
+        identity = {
+            "name": "test",
+            "credentials": [{"accessKey": KEY, "secretKey": SECRET}],
+            "actions": ["Admin", "Read", "Write", "List"],
+        }
+        config = self._folder / "s3.json"
+        config.write_text(json.dumps({"identities": [identity]}))
+        more = {**ports, "dir": self._folder, "ip": "127.0.0.1", "ip.bind": "127.0.0.1",
+                "s3.config": config, "s3.port.iceberg": 0, "s3.port.lance": 0, "volume.max": 8,
+                "master.volumeSizeLimitMB": 64}  # fmt: skip
+        options = [f"-{name}={value}" for name, value in more.items()]
+        self._command = [program, "server", "-s3", *options]
+        self._process = None
+
+    def __enter__(self):
+        with (self._folder / "weed.log").open("wb") as log:
+            self._process = subprocess.Popen(self._command, stdout=log, stderr=log)
+        until(self._is_serving, lambda: (self._folder / "weed.log").read_text()[-2000:])
+        return self
+
+    def __exit__(self, *_):
+        self._process.kill()
+        self._process.wait(DEADLINE_S)
+
+    def client(self):
+        return boto3.client(
+            "s3",
+            endpoint_url=self.endpoint,
+            region_name="us-east-1",
+            aws_access_key_id=KEY,
+            aws_secret_access_key=SECRET,
+        )
+
+    def credentials(self, path):
+        """Write the file of `s3_credentials`."""
+        path.write_text(f"{KEY}:{SECRET}\n")
+        path.chmod(0o600)
+
+    def _is_serving(self):
+        """The first object is taken when the volumes are there."""
+        client = self.client()
+        try:
+            client.create_bucket(Bucket=BUCKET)
+            client.put_object(Bucket=BUCKET, Key="first", Body=b"")
+        except (BotoCoreError, ClientError):
+            return False
+        return True
