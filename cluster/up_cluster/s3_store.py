@@ -41,8 +41,9 @@ class S3Object(NamedTuple):
 class S3Store:
     """One bucket, with the methods of `ObjectStore` that the pool needs.
 
-    They, and the constructor, raise UnavailableError without an answer, RefusedError for a refusal. Each write is
-    repeated once without an answer, so WrongRevisionError may mean an own write.
+    They raise UnavailableError without an answer, RefusedError for a refusal, which the constructor
+    raises for wrong settings. Each write is repeated once without an answer, so WrongRevisionError
+    may mean an own write.
     """
 
     def __init__(
