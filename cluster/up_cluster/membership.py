@@ -124,8 +124,8 @@ class Membership:
             for make in self.makers:
                 await make(self._replicas)
         except (UnavailableError, RefusedError) as error:
-            log = _log.debug if isinstance(error, UnavailableError) else _log.warn
-            self._limited.log(log, "no bucket yet: {reason}", code="no_bucket", reason=str(error))
+            text = "no bucket yet: {reason}"
+            self._limited.log(_log.warn, text, code="no_bucket", reason=str(error))
             if self.client.is_connected:
                 self._timer = self._reactor.callLater(BUCKET_RETRY_S, self._make_buckets)
         else:
