@@ -24,12 +24,14 @@ def start(module: str, *arguments: Any) -> int:
     from up.errors import UserError
     from up.output import check_format, print_problems
     from up.system.gc_scheduler import frozen_imports
+    from up.system.postponed_import import postpone
 
     try:
         check_format()
     except UserError as error:
         print_problems(error.problems)
         return EXIT_USAGE
+    postpone("http.cookiejar")
     with frozen_imports():
         main = import_module(module).main
     signal.signal(signal.SIGINT, before)
