@@ -32,7 +32,8 @@ ARROWS: dict[str, set[str]] = {
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
 PROXY_MAY_USE = {
-    "cli", "config", "errors", "fields", "log", "output", "protocols", "system", "tls", "version"
+    "cli", "config", "errors", "fields", "log", "output", "protocols", "quick_dataclass", "system",
+    "tls", "version",
 }  # fmt: skip
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
@@ -62,6 +63,7 @@ LAYERS = (
     "system",
     "output",
     "fields | version | errors | earth",
+    "quick_dataclass",
 )
 # Up names no cog and no device: it knows roles. These texts of its files are exceptions.
 NAMES_ALLOWED = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from random import Random, SystemRandom
 from typing import Any, TypeVar
@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from up.config import ConfigFile
 from up.config.application import APPLICATION, ApplicationConfig
 from up.mode import Mode
+from up.quick_dataclass import dataclass
 
 _T = TypeVar("_T")
 

@@ -6,8 +6,10 @@ import difflib
 import math
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
+
+from up.quick_dataclass import dataclass
 
 _TYPES = (bool, int, float, str, dict, list)
 _JSON_TYPES: dict[type, str] = {

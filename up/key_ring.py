@@ -6,7 +6,6 @@ import contextlib
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from twisted.python.failure import Failure
 from up.config import ConfigErrors, ConfigProblem
 from up.config.keys_file import KEYS, KeyConfig
 from up.protocols.aircraft_sessions import Key
+from up.quick_dataclass import dataclass
 from up.system.disk_thread import DiskThread
 
 POLL_S = 0.5

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Container
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+from up.quick_dataclass import dataclass
 
 if TYPE_CHECKING:
     from up.base_module import BaseModule

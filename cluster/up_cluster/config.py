@@ -2,12 +2,12 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 from up.config import ConfigFile, key
 from up.errors import UserError
+from up.quick_dataclass import dataclass
 
 DEFAULT_PORT = 4222
 _SERVER = re.compile(

@@ -19,13 +19,14 @@ the majority of the NATS servers took less than `ttl_s` ago. A reader's copy pro
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from typing import Any, NamedTuple
 
 from twisted.internet.defer import Deferred, DeferredLock
 
 from up.log import UpLogger
+from up.quick_dataclass import dataclass
 from up.system.clock import Clock, Timer, cancel
 from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
 from up_cluster.key_value import Entry, KeyValueBucket

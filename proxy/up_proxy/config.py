@@ -1,8 +1,7 @@
 """proxy.yml."""
 
-from dataclasses import dataclass
-
 from up.config import ConfigFile, key, section
+from up.quick_dataclass import dataclass
 from up_cluster.config import ClusterConfig
 
 

@@ -1,10 +1,10 @@
 """All aircraft with connections, by name; ``handshake.py`` admits a second one of a name."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from up.log import Limited
 from up.protocols.proxy_lines import FULL, HelloError
+from up.quick_dataclass import dataclass
 from up.system.clock import Clock
 from up_proxy.aircraft import AircraftSession
 from up_proxy.poller import Poller

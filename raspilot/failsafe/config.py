@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 from up.config import ConfigFile, key, mapping, section
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 WARN = "warn"
 

@@ -6,9 +6,9 @@ A new trigger is a key of ``config.py`` and a condition in ``raspilot/modules/fa
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 
 from raspilot.failsafe.config import WARN, Trigger
+from up.quick_dataclass import dataclass
 
 
 @dataclass(slots=True)

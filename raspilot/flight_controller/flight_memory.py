@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from twisted.python.failure import Failure
 
 from raspilot.mission.progress import MissionProgress
 from up.config import ConfigFile, PersistedFile, key, section
+from up.quick_dataclass import dataclass
 from up.system.disk_thread import DiskThread
 
 

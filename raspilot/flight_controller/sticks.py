@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from up.commands.flight_state_command import DEFAULT_LIMITS_DEG, FlyByWireLimitsCommand
+from up.quick_dataclass import dataclass
 
 CENTRE_US = 1500
 HALF_TRAVEL_US = 500

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of
@@ -10,6 +9,7 @@ from up.config import ConfigFile, key
 from up.flight_modes.demand import AttitudeDemand, Bank, Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 from up.flight_modes.navigation_file import NAVIGATION
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from raspilot.navigation.planning import circle_around, distance_m
@@ -18,6 +17,7 @@ from up.flight_modes.flight_mode import (
 )
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

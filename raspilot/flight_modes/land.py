@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum
 from typing import ClassVar
 
@@ -17,6 +16,7 @@ from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
 from up.flight_modes.selector import DemandError
+from up.quick_dataclass import dataclass
 
 MAX_FIX_AGE_S = 3.0
 SETTLED_M = 4.0

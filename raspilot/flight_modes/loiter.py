@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from raspilot.navigation.planning import circle_abeam, circle_around
@@ -11,6 +10,7 @@ from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 from up.flight_modes.navigation_file import NAVIGATION
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from raspilot.navigation.planning import (
@@ -16,6 +15,7 @@ from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_file import NAVIGATION
+from up.quick_dataclass import dataclass
 
 AIRSPEED_PERIOD_S = 1.0
 ARRIVED_RADII = 2.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum
 from typing import ClassVar
 
@@ -13,6 +12,7 @@ from up.config import ConfigFile, key
 from up.flight_modes.demand import AttitudeDemand, Demand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_file import NAVIGATION
+from up.quick_dataclass import dataclass
 
 LOW_US, CONSENT_US = 1100, 1250
 """The throttle stick: closed; the pilot's consent that the motor may run."""

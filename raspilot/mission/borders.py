@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter
 from typing import TypeAlias
 
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import Border
+from up.quick_dataclass import dataclass
 
 ROUNDING_M2 = 1.0
 _Edge: TypeAlias = tuple[Point, Point]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import islice
 
 from raspilot.failsafe.config import Fence
@@ -20,6 +20,7 @@ from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import JUMP, LAND, RETURN, SPEED, TAKEOFF, WAYPOINT, Border, MissionItem
+from up.quick_dataclass import dataclass
 
 MIN_GROUND_M_S, MIN_LEG_M = 2.0, 10.0
 SD_M, HEIGHT_MARGIN_M = 5.0, 10.0

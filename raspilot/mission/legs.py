@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from raspilot.mission.progress import LAST, NOT_FLOWN, airspeed_of, following
 from raspilot.navigation.planning import (
@@ -25,6 +25,7 @@ from up.mission.items import (
     WAYPOINT,
     MissionItem,
 )
+from up.quick_dataclass import dataclass
 
 CIRCLED = frozenset({LOITER, LOITER_TURNS, LOITER_TIME})
 MAX_LEAD_DEG = 120.0

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from up.commands.mission_commands import MAX_ITEMS, MISSION
 from up.config import key, mapping
 from up.fields import Constraint
 from up.mission.items import JUMP, LAND, LOITER, RETURN, SPEED, WAYPOINT, MissionItem
+from up.quick_dataclass import dataclass
 
 NOT_FLOWN = frozenset({SPEED, JUMP})
 """Kinds that the aircraft does not fly to: they act between two others."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from up.base_module import BaseModule
@@ -13,6 +12,7 @@ from up.failures import FailureSource
 from up.flight_controller.base_board import BaseBoard
 from up.mode import WITH_BOARD
 from up.providers.source_arbiter import SourceArbiter
+from up.quick_dataclass import dataclass
 
 MEASURED_S = 2.0
 """How long a measurement is used."""

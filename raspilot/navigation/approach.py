@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.planning import flyable_radius_m, ground_speed_m_s
@@ -11,6 +10,7 @@ from up.flight_modes.demand import Circle, Line
 from up.flight_modes.flight_mode import Target
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState, Point
+from up.quick_dataclass import dataclass
 
 STALL_FACTOR, WIND_SHARE = 1.3, 0.25
 """Airspeed of the approach: this times the stall speed, and a part of the wind for its gusts."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import dataclass
+
+from up.quick_dataclass import dataclass
 
 MAX_ACCURACY_M = 30.0
 MAX_AGE_S = 3.5

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from up.quick_dataclass import dataclass
 
 DOUBT_S = 2.0
 """A source that disagrees for as long without a break is doubted: before a jump is believed."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal
 
 from up.config import ConfigFile, items, key, mapping, section
 from up.config.schema import ListOf
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 from up.system.figures import PACKAGE_MISSING, is_installed
 from up_runner.pool_config import PoolConfig
 from up_runner.request import NAME

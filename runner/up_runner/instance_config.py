@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ import yaml
 from up.config.atomic_writer import write_atomically
 from up.config.keys_file import KEYS
 from up.config.loader import read_text
+from up.quick_dataclass import dataclass
 from up_runner.request import Request, Scalar
 from up_runner.response import Problem
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from twisted.internet.defer import Deferred, DeferredLock
 from twisted.internet.threads import deferToThreadPool
 from twisted.logger import Logger
 
+from up.quick_dataclass import dataclass
 from up_runner import instance_state
 from up_runner.instance_config import ConfigurationRefused, InstanceConfig
 from up_runner.instance_state import InstanceState

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from up.quick_dataclass import dataclass
 from up_runner.process import Identity
 from up_runner.request import MalformedRequest, Request, parse
 

@@ -9,9 +9,10 @@ import re
 import socket
 import struct
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from up.quick_dataclass import dataclass
 
 _CREDENTIALS = struct.Struct("3i")
 _MAX_BATCH = 100

@@ -5,9 +5,9 @@ from __future__ import annotations
 import importlib.util
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
+from up.quick_dataclass import dataclass
 from up_runner.config import RunnerConfig
 from up_runner.run_folder import default_run_folder
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
+from up.quick_dataclass import dataclass
 from up_runner.response import Problem
 
 ASLEEP = "asleep"

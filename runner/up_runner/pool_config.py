@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.config import items, key
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 from up_cluster.config import ClusterConfig
 from up_runner.request import LABEL, MAX_LABELS
 

@@ -8,9 +8,10 @@ import select
 import signal
 import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from up.quick_dataclass import dataclass
 
 BOOT_ID = Path("/proc/sys/kernel/random/boot_id")
 

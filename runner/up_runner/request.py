@@ -6,10 +6,11 @@ import json
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Literal, NoReturn
 
 from up.protocols.runner_session import PROTECTED, body_of
+from up.quick_dataclass import dataclass
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 MAX_LINE = 64 * 1024

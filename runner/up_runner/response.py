@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from up.quick_dataclass import dataclass
 
 SPAWNED = "Raspilot spawned"
 ALREADY_RUNNING = "Raspilot already running"

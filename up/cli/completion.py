@@ -9,7 +9,9 @@ import argparse
 import re
 import shlex
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from up.quick_dataclass import dataclass
 
 SHELLS = ("bash", "zsh", "fish")
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import keyword
 import re
 import sys
-from dataclasses import dataclass
 
 from up.cli.cli_error import UsageError
+from up.quick_dataclass import dataclass
 
 _GIVEN = re.compile(r"[A-Za-z][A-Za-z0-9_ -]*", re.ASCII)
 _IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*(\.[a-z0-9_]+)+", re.ASCII)

@@ -7,7 +7,6 @@ import importlib.metadata
 import json
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 from twisted.internet.task import Clock
@@ -28,6 +27,7 @@ from up.loading.external_modules import EXTERNAL_MODULES
 from up.loading.plan import Plan
 from up.output import echo, print_problems
 from up.program import make_context, run_application
+from up.quick_dataclass import dataclass
 
 PROGRAM_FILES = "up.config_files"
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from up.cogs.cog import CogError, package_name
@@ -16,6 +15,7 @@ from up.config.problems import Problems
 from up.config.scalars import is_null
 from up.config.schema import schema_of
 from up.config.validator import Validator
+from up.quick_dataclass import dataclass
 
 COGFILE = "Cogfile.yml"
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
 
 from up.cogs.cog import CogError
 from up.config import ConfigFile, items
 from up.config.atomic_writer import write_atomically
 from up.loading.external_modules import ModuleEntry
+from up.quick_dataclass import dataclass
 
 MANIFEST_FILE = "registered_modules.yml"
 

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 from struct import Struct
 
 from up.commands.command import value
 from up.commands.schema_rows import Datum
+from up.quick_dataclass import dataclass
 
 VERSION = 1
 STATUS = Struct('>BBBBBBHHHHHHHHB')

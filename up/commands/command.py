@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from up.commands.roles import Role
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 _T = TypeVar("_T", bound="BaseCommand")
 RolesWhere = Mapping[str, Mapping[Any, frozenset[Role]]]
@@ -20,7 +21,7 @@ class InvalidCommandError(ValueError):
     """A Command's data violate its definition; the text names the field."""
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True)
 class WireFields:
     """A frozen, slotted dataclass whose fields are declared by ``value``: checked data of JSON."""
 
@@ -46,7 +47,7 @@ class WireFields:
             raise InvalidCommandError(str(error)) from None
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True)
 class BaseCommand(WireFields):
     """The base of every Command: subclass it as a frozen, slotted dataclass.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from up.commands.answer_commands import MAX_DETAIL, MAX_REASON
 from up.commands.command import BaseCommand
@@ -12,6 +11,7 @@ from up.commands.origin import Origin
 from up.commands.refusal import Code
 from up.commands.roles import Role
 from up.protocols.general_message import GeneralMessage, encode
+from up.quick_dataclass import dataclass
 from up.system.clock import Clock
 
 REMEMBERED = 256

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Protocol
 
 from up.commands.schema_rows import Rule
+from up.quick_dataclass import dataclass
 
 INFO, WARNING, ALARM = "info", "warning", "alarm"
 AWAITED = "awaited"

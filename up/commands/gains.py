@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 MAX_GAIN = 50.0
 AXES = ("ailerons", "elevator", "rudder")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 MISSION, FENCE = PLANS = ("mission", "fence")
 MAX_ITEMS = {MISSION: 700, FENCE: 50}

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
+from up.quick_dataclass import dataclass
 from up.quick_init import quick_init
 
 

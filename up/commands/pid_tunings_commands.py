@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, RolesWhere, value
 from up.commands.gains import GainSet, gain_set_from_data, gain_set_to_data
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 MIN_PERIOD_MS = 20
 MAX_PERIOD_MS = 10_000

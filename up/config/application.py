@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from up.config.file import ConfigFile
 from up.config.schema import items, key
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -16,6 +16,7 @@ from up.config.template import template_of
 from up.config.validator import Validator
 from up.errors import UserError
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 T = TypeVar("T")
 

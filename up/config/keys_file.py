@@ -6,7 +6,7 @@ import os
 import re
 import secrets
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 from typing import Literal
@@ -16,6 +16,7 @@ from up.config.file import ConfigFile
 from up.config.schema import key, mapping
 from up.errors import UserError
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 MAX_KEYS = 64

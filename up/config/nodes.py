@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import re
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Protocol
 
 import yaml
 
 from up.fields import printable, show
+from up.quick_dataclass import dataclass
 
 MAX_DEPTH = 20
 MAX_NODES = 50_000

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from up.errors import UserError
 from up.fields import printable
+from up.quick_dataclass import dataclass
 
 MAX_PROBLEMS = 100
 CODES = {

@@ -12,10 +12,10 @@ import sys
 import types
 import typing
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 from up.fields import Constraint, show
+from up.quick_dataclass import dataclass
 
 T = TypeVar("T")
 V = TypeVar("V")

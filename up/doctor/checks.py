@@ -7,11 +7,11 @@ import platform
 import re
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Literal
 
 from up.doctor.machine import Machine
 from up.flight_log.flights_folder import default_folder
+from up.quick_dataclass import dataclass
 from up.version import BUILT_S, VERSION
 
 DISTRIBUTION = "raspilot"

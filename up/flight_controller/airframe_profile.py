@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.commands.board_schema import SWITCH_MODES
 from up.commands.flight_state_command import DEFAULT_LIMITS_DEG
 from up.config import key, section
+from up.quick_dataclass import dataclass
 
 MIXES = ("none", "elevon", "V-tail")
 MODES = tuple(SWITCH_MODES.values())

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from up.commands.gains import MAX_GAIN, Gains, GainSet, LoopGains
 from up.config import ConfigFile, PersistedFile, key, section
 from up.errors import UserError
+from up.quick_dataclass import dataclass
 
 _RATE_UNIT = "1.25 us per deg/s"
 _STABILIZE_UNIT = "deg/s per deg"

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import re
 import time
-from dataclasses import dataclass
 from pathlib import Path
+
+from up.quick_dataclass import dataclass
 
 _NAME = re.compile(
     r"(?P<number>[0-9]{4,9})-(?P<stamp>[0-9]{8}T[0-9]{6}Z)-(?P<aircraft>[A-Za-z0-9_-]{1,32})"

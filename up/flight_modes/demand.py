@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from up.flight_modes.navigation_state import Point
+from up.quick_dataclass import dataclass
 from up.quick_init import quick_init
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from up.base_module import BaseModule
@@ -11,6 +10,7 @@ from up.commands.orientation_command import OrientationCommand
 from up.commands.rx_command import RXCommand
 from up.flight_modes.demand import Demand
 from up.flight_modes.navigation_state import NavigationState, Point
+from up.quick_dataclass import dataclass
 from up.quick_init import quick_init
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.config import ConfigFile, key, section
+from up.quick_dataclass import dataclass
 
 
 def _speed(default: float, comment: str) -> float:

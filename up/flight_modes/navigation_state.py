@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from up.earth import MEAN_RADIUS_M
+from up.quick_dataclass import dataclass
 from up.quick_init import quick_init
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 from up.config import ConfigFile, key
 from up.errors import UserError
+from up.quick_dataclass import dataclass
 
 UP_FILE = "UpFile"
 

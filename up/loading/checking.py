@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from up.loading.order import order
 from up.loading.plan import BootError, Plan, path_of
 from up.loading.selection import select
 from up.log.json_lines import RotatingFile
+from up.quick_dataclass import dataclass
 
 
 @dataclass(slots=True)

@@ -7,7 +7,7 @@ import inspect
 import pkgutil
 import sys
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from types import ModuleType
 
 from up.base_module import BaseModule
@@ -17,6 +17,7 @@ from up.errors import UserError
 from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES, CogEntry
 from up.loading.plan import LoadProblem, problem_of, reason_of
+from up.quick_dataclass import dataclass
 
 # The import of a file may raise anything, and one that exits must not end the program.
 IMPORT_FAULTS = (Exception, SystemExit)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Literal
 
 from up.config import items, key
 from up.config.file import MapFile
+from up.quick_dataclass import dataclass
 
 EXTERNAL_MODULES_FILE = "external_modules.yml"
 

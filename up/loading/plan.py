@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
 from up.errors import UserError
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

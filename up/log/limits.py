@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 from typing import Any
 
+from up.quick_dataclass import dataclass
 from up.system.clock import Clock, Timer
 
 Emit = Callable[..., None]

@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from up.commands.command import WireFields, value
 from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION
+from up.quick_dataclass import dataclass
 
 MAX_CORNERS = 100
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from up.commands.mission_commands import MAX_ITEMS, MISSION
@@ -25,6 +24,7 @@ from up.mission.items import (
 )  # fmt: skip
 from up.mission.mavlink_commands import NAMES, WITHOUT_EFFECT
 from up.mission.plan import Findings
+from up.quick_dataclass import dataclass
 
 FRAME_SEA, FRAME_MISSION, FRAME_HOME = 0, 2, 3
 _IS_ABOVE_SEA = {FRAME_SEA: True, FRAME_HOME: False, 5: True, 6: False}

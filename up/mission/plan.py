@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, TypeAlias
 
 from up.commands.mission_commands import FENCE, MAX_ITEMS
 from up.errors import UserError
 from up.mission.items import ITEM_CLASSES, Border, MissionItem, PlanItem
+from up.quick_dataclass import dataclass
 
 PLAN, WAYPOINTS = FORMS = ("plan", "waypoints")
 Position: TypeAlias = tuple[float, float, float]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -20,6 +19,7 @@ from up.mission.items import PlanItem, plan_id
 from up.mission.plan import PlanError, PlanProblem, checked_items
 from up.mission.reliable_requests import ReliableRequests, Reply, SendCommand
 from up.protocols.general_message import GeneralMessage
+from up.quick_dataclass import dataclass
 from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from up.commands.command import BaseCommand
 from up.commands.refusal import Code
 from up.protocols.general_message import GeneralMessage
+from up.quick_dataclass import dataclass
 from up.sanitize_text import sanitize_text
 from up.system.clock import Clock, Timer, cancel
 

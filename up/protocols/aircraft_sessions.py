@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from up.protocols import handshake
@@ -29,6 +29,7 @@ from up.protocols.handshake import (
     SessionKeys,
 )
 from up.protocols.handshake import broadcast_streams as streams_of
+from up.quick_dataclass import dataclass
 
 SESSIONS_PER_KEY = 32
 """Of those in which a Command came, and of the others, so that repeated hellos end only these."""

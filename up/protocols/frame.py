@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from up.quick_dataclass import dataclass
 
 Frame = tuple[int, bytes, int]
 """Type byte, payload, sequence (0 in thesis framing)."""

@@ -6,10 +6,11 @@ import json
 import math
 import re
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NoReturn
 
 from up.protocols.line_decoder import MAX_LINE_BYTES
+from up.quick_dataclass import dataclass
 
 MAX_NESTING = 32
 MAX_NAME = 128

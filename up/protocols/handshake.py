@@ -7,7 +7,7 @@ Both derive the keys of the session from the paired secret and both nonces.
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import ClassVar
 
 from up.protocols.binary_line import HANDSHAKE
@@ -21,6 +21,7 @@ from up.protocols.envelope import (
     keyed,
     mac,
 )
+from up.quick_dataclass import dataclass
 
 NONCE_BYTES = 16
 KEY_ID_BYTES = 8

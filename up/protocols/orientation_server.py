@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from twisted.internet.interfaces import IAddress
@@ -17,6 +16,7 @@ from up.protocols.orientation_forward import (
     decode_datagram,
 )
 from up.protocols.tcp_options import watch_peer, why_lost
+from up.quick_dataclass import dataclass
 from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from up.quick_dataclass import dataclass
 from up.system.aircraft_name import AIRCRAFT_NAME
 
 _TEXT = re.compile(

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import Enum
 from typing import ClassVar
 
+from up.quick_dataclass import dataclass
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 PREFIX = b"UP1 "

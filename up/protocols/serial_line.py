@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 from twisted.internet.defer import Deferred, succeed
@@ -16,6 +15,7 @@ from twisted.python.failure import Failure
 from zope.interface import implementer
 
 from up.protocols.serial_port import close_serial
+from up.quick_dataclass import dataclass
 from up.system.clock import Timer, cancel
 
 INITIAL_DELAY_S = 0.2

@@ -5,12 +5,12 @@ from __future__ import annotations
 import contextlib
 import socket
 import struct
-from dataclasses import dataclass
 from typing import Any
 
 from twisted.internet.error import ConnectionAborted, ConnectionDone
 from twisted.python.failure import Failure
 
+from up.quick_dataclass import dataclass
 from up.tls.errors import TLSError
 
 KEEPALIVE_IDLE_S = 3

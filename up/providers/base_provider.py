@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 from up.base_started_module import BaseStartedModule
@@ -13,6 +12,7 @@ from up.commands.system_commands import SourceSelectedCommand
 from up.config.application import PROVIDERS
 from up.providers.source_arbiter import SourceArbiter
 from up.providers.subscription import Subscription
+from up.quick_dataclass import dataclass
 from up.quick_init import quick_init
 
 _T = TypeVar("_T")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from up.quick_dataclass import dataclass
 
 RETURN_AFTER_S = 1.0
 

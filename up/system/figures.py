@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from importlib.util import find_spec
 from types import SimpleNamespace
 from typing import Any, Literal
+
+from up.quick_dataclass import dataclass
 
 PACKAGE_MISSING = (
     "needs the Python package prometheus-client: pip install 'raspilot[metrics]'",

@@ -1,7 +1,8 @@
 """Modules that are imported only when something of them is used.
 
-Twisted imports ``http.cookiejar`` for its web client, and with it ``urllib.request``, ``http.client``
-and ``email``: 31 modules, 2.7 MiB, an eighth of the reactor's import. No program here uses them.
+Twisted imports ``http.cookiejar`` for its web client, and with it ``urllib.request``,
+``http.client`` and ``email``: 31 modules, 2.7 MiB, an eighth of the reactor's import. No program
+here uses them.
 """
 
 from __future__ import annotations

@@ -5,7 +5,6 @@ from __future__ import annotations
 import datetime as dt
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
 from up.config.atomic_writer import write_atomically
 from up.errors import UserError
+from up.quick_dataclass import dataclass
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.tls.files import CA, CERTIFICATE, KEY, REVOKED
 

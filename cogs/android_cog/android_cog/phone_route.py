@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from dataclasses import dataclass
 from uuid import uuid4
 
 from twisted.internet.defer import Deferred
@@ -14,6 +13,7 @@ from up.commands.command_link import CommandLink
 from up.commands.refusal import Code, CommandRefusedError
 from up.protocols.general_message import encode
 from up.protocols.general_message_link import GeneralMessageLink
+from up.quick_dataclass import dataclass
 
 PENDING_LIMIT = 64
 _MAX_USED_IDS = 512

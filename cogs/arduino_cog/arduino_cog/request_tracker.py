@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from twisted.internet.defer import Deferred
 
 from up.commands.refusal import Code, CommandRefusedError
+from up.quick_dataclass import dataclass
 from up.system.clock import Clock, Timer, cancel
 
 TIMEOUT_S = 0.5

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from up.config import ConfigFile, key
+from up.quick_dataclass import dataclass
 
 MEGABYTE = 1_000_000
 

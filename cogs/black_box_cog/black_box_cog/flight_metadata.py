@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
+from up.quick_dataclass import dataclass
 from up.version import VERSION
 
 _FILES_LIMIT = 64

@@ -6,7 +6,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, cast
 
 from twisted.logger import ILogObserver, LogEvent, LogLevel, globalLogPublisher
@@ -21,6 +21,7 @@ from up.flight_log.foxglove import LOG_LEVELS
 from up.log.json_lines import fields_of
 from up.log.levels import level_of
 from up.log.text import source_of, text_of
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

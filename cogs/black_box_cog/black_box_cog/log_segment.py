@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
@@ -29,6 +28,7 @@ from up.flight_log.foxglove import (
     timestamp,
 )
 from up.flight_log.mcap_writer import McapWriter
+from up.quick_dataclass import dataclass
 
 LOG_TOPIC = "log"
 _ANY_OBJECT = {"type": "object"}

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.config import ConfigFile, items, key
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from up.config import ConfigFile, key
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.commands.origin import link_name_problem
 from up.config import ConfigFile, key, mapping
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 SPEEDS = (9600, 38400, 115200, 57600, 230400)
 """Those of receivers as delivered come first."""

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from up.commands.command import InvalidCommandError
 from up.commands.location_command import LocationCommand
+from up.quick_dataclass import dataclass
 
 HDOP_M = 2.5
 """Accuracy of a fix with a dilution of 1, where the receiver does not estimate it."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+
+from up.quick_dataclass import dataclass
 
 DRIFT = 1e-4
 """How fast the program's clock may run apart from the satellites'."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal
 
 from up.commands.roles import Role
 from up.config import ConfigFile, items, key
+from up.quick_dataclass import dataclass
 from up_mavlink.address import SERIAL, read_address
 from up_mavlink.dialect import is_available
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.config import ConfigFile, key
+from up.quick_dataclass import dataclass
 from up.system.figures import PACKAGE_MISSING, is_installed
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import socket
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 from up.config import ConfigFile, items, key, section
 from up.fields import Constraint
 from up.protocols.encrypted_stream import is_available
+from up.quick_dataclass import dataclass
 from up.system.addresses import is_wildcard
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 

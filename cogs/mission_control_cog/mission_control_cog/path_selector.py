@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
+
+from up.quick_dataclass import dataclass
 
 PROBE_S = 5.0
 """Period of the probes of each path that does not carry the link."""

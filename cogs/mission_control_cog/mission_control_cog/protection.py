@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from twisted.logger import Logger
@@ -18,6 +17,7 @@ from up.protocols.aircraft_sessions import AircraftSessions, Key, Session
 from up.protocols.binary_line import HANDSHAKE, to_body, to_line
 from up.protocols.envelope import EnvelopeError
 from up.protocols.general_message import MalformedMessage, decode
+from up.quick_dataclass import dataclass
 from up.system.token_bucket import TokenBucket
 
 if TYPE_CHECKING:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import reduce
 from operator import xor
+
+from up.quick_dataclass import dataclass
 
 REQUEST, REPLY, ERROR = b"$M<", b"$M>", b"$M!"
 _HEADER = 5

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from msp_cog.line_opener import SOCKET, socket_problem
 from up.config import ConfigFile, key
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

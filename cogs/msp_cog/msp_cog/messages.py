@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from msp_cog.stick_curve import StickCurve
 from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.location_command import LocationCommand
+from up.quick_dataclass import dataclass
 
 VARIANT, VERSION, RECEIVER_MAP, ADVANCED, STATUS = 2, 3, 64, 94, 150
 RAW_IMU, SERVO, MOTOR, RC = 102, 103, 104, 105

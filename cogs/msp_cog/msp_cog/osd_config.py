@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 from up.config import ConfigFile, key, section
+from up.quick_dataclass import dataclass
 
 WIDTHS = {
     "mode": 14,

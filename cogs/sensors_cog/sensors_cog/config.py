@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from up.commands.origin import link_name_problem
 from up.config import ConfigFile, key, mapping
 from up.fields import Constraint
+from up.quick_dataclass import dataclass
 
 _CLASS = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+", re.ASCII)
 CHIPS = {

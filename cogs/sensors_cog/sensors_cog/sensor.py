@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from smbus2 import i2c_msg
 
 from sensors_cog.config import SensorConfig
 from up.commands.command import BaseCommand
+from up.quick_dataclass import dataclass
 
 
 class WrongChipError(Exception):

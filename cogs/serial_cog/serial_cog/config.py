@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from up.config import ConfigFile, key
 from up.protocols.framing import FRAMINGS
+from up.quick_dataclass import dataclass
 
 THESIS_BAUD = 9600
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
 from up.protocols.serial_port import SerialPortError, open_serial
+from up.quick_dataclass import dataclass
 
 ARDUINO, ARDUINO_ORG, FTDI, CH340, CP210X = 0x2341, 0x2A03, 0x0403, 0x1A86, 0x10C4
 KNOWN_VENDORS = (ARDUINO, ARDUINO_ORG, FTDI, CH340, CP210X)

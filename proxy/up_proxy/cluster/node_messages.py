@@ -3,11 +3,12 @@
 import json
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 from up.protocols.proxy_lines import Access
+from up.quick_dataclass import dataclass
 from up_proxy.tenant_quota import Usage
 
 MAX_NUMBER = 2**53

@@ -1,7 +1,8 @@
 """The age of messages from other machines, without a common clock."""
 
 import math
-from dataclasses import dataclass
+
+from up.quick_dataclass import dataclass
 
 WINDOW_S = 60.0
 """The smallest difference of the clocks counts for one to two windows."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from weakref import WeakValueDictionary
@@ -13,6 +12,7 @@ from weakref import WeakValueDictionary
 from twisted.internet.defer import Deferred, DeferredList, DeferredLock
 
 from up.log import UpLogger
+from up.quick_dataclass import dataclass
 from up.system.deadline_watch import VARIABLE, now_s, read_deadline, write_deadline
 from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.lease import Lease, Record

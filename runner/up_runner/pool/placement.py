@@ -5,8 +5,9 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
+
+from up.quick_dataclass import dataclass
 
 HEARTBEAT_S = 1.0
 FRESH_S = 3.0

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

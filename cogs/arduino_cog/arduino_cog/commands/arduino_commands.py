@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.flight_controller.profile_wire import Profile, nested
+from up.quick_dataclass import dataclass
 
 CALIBRATIONS = {"level": 0, "receiver_begin": 1, "receiver_end": 2, "gyro": 3}
 MAX_V = 65.0

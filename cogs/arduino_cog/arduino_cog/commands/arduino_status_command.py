@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.board_schema import STATUS, SWITCH_POSITIONS, BoardStatus, Veto
 from up.commands.board_status import TOPIC, reset_causes_of, vetoes_of
 from up.commands.command import BaseCommand
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 RECEIVER_WAIT_S = 5
 """A receiver that lost power in the air is received again within this time."""

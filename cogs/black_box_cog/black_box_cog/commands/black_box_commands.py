@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.quick_dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)
