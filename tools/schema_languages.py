@@ -71,10 +71,11 @@ def python(schema: Schema) -> str:
     return "\n".join([
         f'"""Codes and fields of the board\'s status. {BOARD_NOTE}"""',
         "# ruff: noqa: D101, E501, RUF100", "# fmt: off", "",
-        "from __future__ import annotations", "", "from dataclasses import dataclass",
+        "from __future__ import annotations", "",
         "from enum import IntEnum, IntFlag", "from struct import Struct", "",
         "from up.commands.command import value",
-        "from up.commands.schema_rows import Datum", "",
+        "from up.commands.schema_rows import Datum",
+        "from up.quick_dataclass import dataclass", "",
         f"VERSION = {schema.version}", f"STATUS = Struct({schema.format!r})",
         f"OLDEST_SIZE = {schema.oldest_size}",
         f"FLIGHT_MODES = { {m.letter: m.name for m in schema.modes if m.flown} }",
