@@ -7,6 +7,7 @@ import sysconfig
 from pathlib import Path
 
 import boto3
+import pytest
 from botocore.exceptions import BotoCoreError, ClientError
 
 from tests.support.nats_servers import free_ports
@@ -14,6 +15,8 @@ from tests.support.tools import unavailable
 from tests.support.waiting import DEADLINE_S, until
 
 KEY, SECRET, BUCKET = "raspilot", "secret-of-the-tests", "flights"
+STARTS = 3
+"""Another program may take a port before it is bound."""
 _PORTS = ("master.port", "master.port.grpc", "volume.port", "volume.port.grpc", "filer.port",
           "filer.port.grpc", "s3.port", "s3.port.grpc")  # fmt: skip
 
@@ -22,32 +25,40 @@ class S3Server:
     """One server with an empty bucket, as a context; it ends with it."""
 
     def __init__(self, folder):
-        program = shutil.which("weed", path=sysconfig.get_path("scripts")) or shutil.which("weed")
-        if program is None:
+        self._program = shutil.which("weed", path=sysconfig.get_path("scripts"))
+        self._program = self._program or shutil.which("weed")
+        if self._program is None:
             unavailable("weed is not installed (SeaweedFS 4; its wheel is for x86_64 only)")
         self._folder = Path(folder)
-        ports = dict(zip(_PORTS, free_ports(len(_PORTS)), strict=True))
-        self.endpoint = f"http://127.0.0.1:{ports['s3.port']}"
-        self.pool = {"s3_bucket": BUCKET, "s3_endpoint": self.endpoint}
+        self._log = self._folder / "weed.log"
         identity = {
             "name": "test",
             "credentials": [{"accessKey": KEY, "secretKey": SECRET}],
             "actions": ["Admin", "Read", "Write", "List"],
         }
-        config = self._folder / "s3.json"
-        config.write_text(json.dumps({"identities": [identity]}))
-        more = {**ports, "dir": self._folder, "ip": "127.0.0.1", "ip.bind": "127.0.0.1",
-                "s3.config": config, "s3.port.iceberg": 0, "s3.port.lance": 0, "volume.max": 8,
-                "master.volumeSizeLimitMB": 64}  # fmt: skip
-        options = [f"-{name}={value}" for name, value in more.items()]
-        self._command = [program, "server", "-s3", *options]
+        (self._folder / "s3.json").write_text(json.dumps({"identities": [identity]}))
         self._process = None
 
     def __enter__(self):
-        with (self._folder / "weed.log").open("wb") as log:
-            self._process = subprocess.Popen(self._command, stdout=log, stderr=log)
-        until(self._is_serving, lambda: (self._folder / "weed.log").read_text()[-2000:])
-        return self
+        for _ in range(STARTS):
+            self._start()
+            until(lambda: self._is_serving() or self._process.poll(), self._log.read_text)
+            if self._process.poll() is None:
+                return self
+        pytest.fail(f"it does not start: {self._log.read_text()[-2000:]}")
+
+    def _start(self):
+        """Start it at ports that were free a moment ago."""
+        ports = dict(zip(_PORTS, free_ports(len(_PORTS)), strict=True))
+        self.endpoint = f"http://127.0.0.1:{ports['s3.port']}"
+        self.pool = {"s3_bucket": BUCKET, "s3_endpoint": self.endpoint}
+        more = {**ports, "dir": self._folder, "ip": "127.0.0.1", "ip.bind": "127.0.0.1",
+                "s3.config": self._folder / "s3.json", "s3.port.iceberg": 0, "s3.port.lance": 0,
+                "volume.max": 8, "master.volumeSizeLimitMB": 64}  # fmt: skip
+        options = [f"-{name}={value}" for name, value in more.items()]
+        with self._log.open("wb") as log:
+            command = [self._program, "server", "-s3", *options]
+            self._process = subprocess.Popen(command, stdout=log, stderr=log)
 
     def __exit__(self, *_):
         self._process.kill()
