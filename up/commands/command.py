@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from up.commands.roles import Role
 from up.fields import Constraint
-from up.quick_dataclass import dataclass
+from up.quick_dataclass import dataclass, type_of
 
 _T = TypeVar("_T", bound="BaseCommand")
 RolesWhere = Mapping[str, Mapping[Any, frozenset[Role]]]
@@ -114,10 +114,11 @@ def wire_fields(cls: type[WireFields]) -> tuple[tuple[str, str, _Check], ...]:
     """Return (attribute, name on the wire, check) for every field; computed once per class."""
     plan = _plans.get(cls)
     if plan is None:
-        hints = typing.get_type_hints(cls)
+        fields = dataclasses.fields(cls)
+        hints = {field.name: type_of(cls, field) for field in fields}
         plan = _plans[cls] = tuple(
             (field.name, field.metadata.get("key") or field.name, _checker(field, hints))
-            for field in dataclasses.fields(cls)
+            for field in fields
         )
     return plan
 

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-import sys
 import types
 import typing
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar, cast
 
 from up.fields import Constraint, show
-from up.quick_dataclass import dataclass
+from up.quick_dataclass import dataclass, type_of
 
 T = TypeVar("T")
 V = TypeVar("V")
@@ -218,11 +217,7 @@ def _check_default(spec: Spec, value: Any) -> None:
 def _constraint_of(
     cls: type[Any], field: dataclasses.Field[Any], bounds: Mapping[str, Any], where: str
 ) -> Constraint:
-    annotation: Any = field.type
-    if isinstance(annotation, str):
-        holder = types.SimpleNamespace(__annotations__={field.name: annotation})
-        scope = vars(sys.modules[cls.__module__])
-        annotation = typing.get_type_hints(holder, globalns=scope)[field.name]
+    annotation = type_of(cls, field)
     arguments = dict(bounds)
     members = typing.get_args(annotation)
     if types.NoneType in members:
