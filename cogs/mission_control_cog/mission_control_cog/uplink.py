@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from twisted.internet.defer import Deferred, TimeoutError
-from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
 from twisted.internet.error import ConnectError
 from twisted.internet.interfaces import IProtocolFactory, IStreamClientEndpoint
 from twisted.internet.protocol import Factory
@@ -14,7 +13,7 @@ from twisted.logger import Logger
 from zope.interface import implementer
 
 from mission_control_cog.host_addresses import HostAddresses, HostNotFoundError
-from mission_control_cog.uplink_paths import UplinkPaths
+from mission_control_cog.uplink_paths import UplinkPaths, client_endpoint
 from mission_control_cog.uplink_protocol import HEARTBEAT_S, UplinkProtocol
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.protocols.general_message_link import MAX_BURST, MAX_MESSAGES_HZ
@@ -175,11 +174,10 @@ class Uplink:
         address = ""
         try:
             address = await self._addresses.next()
-            make = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
             reactor, limit_s = self._reactor, None
             if self._paths is not None:
                 reactor, limit_s = self._paths.next(address, self._port)
-            endpoint: Any = make(reactor, address, self._port, limit_s or CONNECT_LIMIT_S)
+            endpoint = client_endpoint(reactor, address, self._port, limit_s or CONNECT_LIMIT_S)
             if self._tls is not None:
                 endpoint = TLSClientEndpoint(self._reactor, endpoint, self._tls, self._host)
             connecting: Deferred[Any] = endpoint.connect(factory)

@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from twisted.internet.defer import Deferred
-from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
 from twisted.internet.error import ConnectError
 from twisted.internet.protocol import Factory, Protocol
 from twisted.python.failure import Failure
@@ -68,6 +67,15 @@ class OnInterface:
         except OSError as error:
             client.failIfNotConnected(InterfaceError(self._name, error))
         return connector
+
+
+def client_endpoint(reactor: Any, address: str, port: int, limit_s: float) -> Any:
+    """Return the endpoint of an IPv4 or IPv6 address."""
+    # Imported here: an aircraft without a server need not wait for it.
+    from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
+
+    make: Any = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
+    return make(reactor, address, port, limit_s)
 
 
 class UplinkPaths:
@@ -174,10 +182,8 @@ class UplinkPaths:
     def _probe(self, path: int) -> None:
         self._probe_bytes += PROBE_BYTES
         address, port = self._peer
-        make = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
-        endpoint: Any = make(
-            OnInterface(self._reactor, self._names[path]), address, port, ATTEMPT_LIMIT_S
-        )
+        reactor = OnInterface(self._reactor, self._names[path])
+        endpoint = client_endpoint(reactor, address, port, ATTEMPT_LIMIT_S)
         factory: Any = Factory.forProtocol(Protocol)
         factory.noisy = False
         connecting: Deferred[Any] = endpoint.connect(factory)
