@@ -19,8 +19,9 @@ MAX_DEVIATIONS = 3.0
 MAX_EVIDENCE, CERTAIN = 1.5, 4.0
 """Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
 SILENT_S = 2.0
-DIVE_M_S2 = 1.5
-"""Acceleration without thrust of a dive: it leads to airspeeds at which the drag is not known."""
+DIVE_M_S2, DIVE_S = 1.5, 1.0
+"""Acceleration without thrust of a dive, and its least time: it leads to airspeeds at which the drag
+is not known. A descent at idle pushes as hard for half a second."""
 SETTLING_S = 10.0
 """From the beginning of the flight, after a time without orientation, in which an attitude found
 anew may be wrong, and after a dive."""
@@ -61,6 +62,7 @@ class MotorWatch:
         self._error = self._error_if_changed = SlowError()
         self._evidence = 0.0
         self._began: AirPoint | None = None
+        self._dived_s = 0.0
         self._unseen_s = -1.0  # The beginning counts as a time without orientation.
         self._time_s = float("-inf")
         self._settled_s = float("-inf")
@@ -79,7 +81,8 @@ class MotorWatch:
         coast = (end.coast_m_s - begin.coast_m_s) / dt_s
         rest = forward_m_s2 - coast
         passed_s, self._time_s = min(dt_s, end.time_s - self._time_s), end.time_s
-        if end.unseen_s > self._unseen_s or coast > DIVE_M_S2:
+        self._dived_s = self._dived_s + passed_s if coast > DIVE_M_S2 else 0.0
+        if end.unseen_s > self._unseen_s or self._dived_s >= DIVE_S:
             self._unseen_s = end.unseen_s
             self._settled_s = end.time_s + SETTLING_S
         given, if_changed = (0.0, thrust) if self.is_stopped else (thrust, 0.0)

@@ -18,16 +18,25 @@ class Accelerations:
         self.watch = MotorWatch()
         self.point = AirPoint(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 11.0, 0.0, 0.0)
 
-    def fly(self, seconds, *, thrust=LEVEL_M_S2, lost=0.0, error_m_s2=0.0, period_s=PERIOD_S):
+    def fly(
+        self,
+        seconds,
+        *,
+        thrust=LEVEL_M_S2,
+        lost=0.0,
+        error_m_s2=0.0,
+        coast=-LEVEL_M_S2,
+        period_s=PERIOD_S,
+    ):
         """Return when the verdict changed, s, and the airspeed that it gave; None: it did not."""
         for count in range(1, round(seconds / period_s) + 1):
             begin = self.point
             self.point = begin._replace(
                 time_s=begin.time_s + period_s,
                 thrust_m_s=begin.thrust_m_s + period_s * thrust,
-                coast_m_s=begin.coast_m_s - period_s * LEVEL_M_S2,
+                coast_m_s=begin.coast_m_s + period_s * coast,
             )
-            felt_m_s2 = (1.0 - lost) * thrust - LEVEL_M_S2 + error_m_s2
+            felt_m_s2 = (1.0 - lost) * thrust + coast + error_m_s2
             gained_m_s = self.watch.acceleration(felt_m_s2, begin, self.point)
             if gained_m_s is not None:
                 return count * period_s, gained_m_s
@@ -109,4 +118,17 @@ def test_an_attitude_that_was_found_anew_is_not_judged_for_ten_seconds(flight):
     flight.point = flight.point._replace(unseen_s=3.0)
     assert flight.fly(9.8, error_m_s2=-2.4) is None
     assert flight.fly(9.8) is None
+    assert flight.fly(2, lost=1.0)
+
+
+def test_after_a_dive_nothing_is_judged_for_ten_seconds(flight):
+    assert flight.fly(1.2, thrust=0.0, coast=1.8) is None
+    assert flight.fly(9.8, error_m_s2=-2.4) is None
+    assert flight.fly(9.8) is None
+    assert flight.fly(2, lost=1.0)
+
+
+def test_a_push_at_idle_is_no_dive(flight):
+    """Such a push came half a second after a stop, and the airspeed fell to 1.11 times stall."""
+    assert flight.fly(3 * PERIOD_S, thrust=0.0, lost=1.0, coast=1.6) is None
     assert flight.fly(2, lost=1.0)
