@@ -126,6 +126,7 @@ class Membership:
         except (UnavailableError, RefusedError) as error:
             text = "no bucket yet: {reason}"
             self._limited.log(_log.warn, text, code="no_bucket", reason=str(error))
+            cancel(self._timer)
             if self.client.is_connected:
                 self._timer = self._reactor.callLater(BUCKET_RETRY_S, self._make_buckets)
         else:

@@ -4,28 +4,42 @@ https://docs.aws.amazon.com/AmazonS3/latest/userguide/conditional-writes.html
 """
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from threading import Thread
 from typing import Any, NamedTuple
 
 import boto3
 from boto3.exceptions import Boto3Error
+from boto3.s3.transfer import TransferConfig
 from botocore.config import Config
-from botocore.exceptions import BotoCoreError, ClientError, FlexibleChecksumError, HTTPClientError
+from botocore.exceptions import (
+    BotoCoreError,
+    ClientError,
+    FlexibleChecksumError,
+    HTTPClientError,
+    SSLError,
+)
 from botocore.exceptions import ConnectionError as NoConnectionError
+from twisted.internet.defer import Deferred
+from twisted.internet.threads import deferToThreadPool
+from twisted.python.threadpool import ThreadPool
 
 from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
 from up_cluster.object_store import InThread, ObjectDamagedError
 
 CONNECT_LIMIT_S, READ_LIMIT_S = 2.0, 5.0
 ATTEMPTS = 2
+MAX_THREADS = 8
 UNCONDITIONAL = "unconditional"
 """Code of the refusal of a service that ignores the condition of a write."""
 _PROBE = "conditional-write"
 _DIGEST = "sha256"
+_NO_REVISION = f'"{0:032x}"'
 _NOT_FOUND = "404", "NoSuchKey"
-_WRONG_REVISION = "PreconditionFailed", "ConditionalRequestConflict"
+_WRONG_REVISION = "412", "PreconditionFailed", "ConditionalRequestConflict"
 
 
 class S3Object(NamedTuple):
@@ -36,6 +50,23 @@ class S3Object(NamedTuple):
     revision: str
     digest: str
     """SHA-256; empty for a file."""
+
+
+class S3Threads:
+    """The threads that wait for S3: few, and nobody waits for them at the end of the program.
+
+    The reactor's own must stay free: it looks up names in them.
+    """
+
+    def __init__(self, reactor: Any) -> None:
+        self._reactor = reactor
+        self._pool = ThreadPool(0, MAX_THREADS, "s3")
+        factory: Any = partial(Thread, daemon=True)
+        self._pool.threadFactory = factory
+        self._pool.start()
+
+    def __call__(self, function: Callable[..., Any], *arguments: Any) -> Deferred[Any]:
+        return deferToThreadPool(self._reactor, self._pool, function, *arguments)
 
 
 class S3Store:
@@ -58,6 +89,7 @@ class S3Store:
     ) -> None:
         self._in_thread = in_thread
         self._bucket = bucket
+        self._upload = TransferConfig(use_threads=False)
         limits = Config(
             connect_timeout=CONNECT_LIMIT_S,
             read_timeout=READ_LIMIT_S,
@@ -81,20 +113,23 @@ class S3Store:
         """
         name = f"{prefix}/{_PROBE}"
         await self.put_bytes(name, b"")
-        try:
-            await self.put_bytes(name, b"", "")
-        except WrongRevisionError:
-            return
-        raise RefusedError(UNCONDITIONAL, "it ignores the condition of a write", "S3")
+        for revision in ("", _NO_REVISION):
+            try:
+                await self.put_bytes(name, b"", revision)
+            except WrongRevisionError:
+                continue
+            raise RefusedError(UNCONDITIONAL, "it ignores the condition of a write", "S3")
 
     async def info(self, name: str) -> S3Object | None:
         """Return what describes an object; None without it."""
         try:
             found = await self._call("head_object", Key=name)
         except RefusedError as error:
-            if error.code in _NOT_FOUND:
-                return None
-            raise
+            if error.code not in _NOT_FOUND:
+                raise
+            # The answer to HEAD has no code: is it the object or the bucket?
+            await self._call("head_bucket")
+            return None
         digest = found["Metadata"].get(_DIGEST, "")
         return S3Object(name, int(found["ContentLength"]), str(found["ETag"]), digest)
 
@@ -117,21 +152,23 @@ class S3Store:
             raise
         return S3Object(name, len(data), str(done["ETag"]), digest)
 
-    async def put_file(self, name: str, path: Path, in_thread: InThread) -> None:
+    async def put_file(self, name: str, path: Path, _in_thread: InThread) -> None:
         """Write an object from a file, in parts if it is large. Raises OSError, too."""
 
         def upload() -> None:
             with _translated():
-                self._client.upload_file(str(path), self._bucket, name)
+                self._client.upload_file(str(path), self._bucket, name, Config=self._upload)
 
-        await in_thread(upload)
+        await self._in_thread(upload)
 
     async def get_bytes(self, info: S3Object) -> bytes:
         """Return an object whose size is known to be small. Raises ObjectDamagedError."""
 
         def read() -> bytes:
             with _translated():
-                found = self._client.get_object(Bucket=self._bucket, Key=info.name)
+                found = self._client.get_object(
+                    Bucket=self._bucket, Key=info.name, IfMatch=info.revision
+                )
                 try:
                     return bytes(found["Body"].read())
                 except FlexibleChecksumError:
@@ -156,11 +193,15 @@ def _translated() -> Iterator[None]:
     """Raise the errors of a store in place of those of boto3."""
     try:
         yield
+    except (OSError, RefusedError, ObjectDamagedError):
+        raise
     except ClientError as error:
         fields = error.response.get("Error", {})
         code, text = str(fields.get("Code", "")), str(fields.get("Message", ""))
         raise RefusedError(code, text, "S3") from None
+    except SSLError as error:
+        raise RefusedError("SSLError", str(error), "boto3") from None
     except (HTTPClientError, NoConnectionError) as error:
         raise UnavailableError(type(error).__name__, "S3") from None
-    except (BotoCoreError, Boto3Error) as error:
-        raise RefusedError(type(error).__name__, str(error), "S3") from None
+    except (BotoCoreError, Boto3Error, ValueError) as error:
+        raise RefusedError(type(error).__name__, str(error), "boto3") from None

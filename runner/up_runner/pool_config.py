@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from urllib.parse import urlsplit
 
 from up.config import items, key
 from up.fields import Constraint
@@ -12,7 +13,6 @@ from up_cluster.config import ClusterConfig
 from up_runner.request import LABEL, MAX_LABELS
 
 _BUCKET = re.compile(r"[a-z0-9][a-z0-9.-]{1,61}[a-z0-9]", re.ASCII)
-_ENDPOINT = re.compile(r"https?://[A-Za-z0-9._\[\]:-]+/?", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class PoolConfig(ClusterConfig):
             yield "address", "must name this host for phones"
         if self.s3_bucket and not _BUCKET.fullmatch(self.s3_bucket):
             yield "s3_bucket", "must be 3 to 63 of a-z 0-9 . -"
-        if self.s3_endpoint and not _ENDPOINT.fullmatch(self.s3_endpoint):
+        if self.s3_endpoint and not _is_endpoint(self.s3_endpoint):
             yield "s3_endpoint", "must be as in https://s3.example.org:9000"
         for name in ("s3_endpoint", "s3_region", "s3_credentials"):
             if getattr(self, name) and not self.s3_bucket:
@@ -87,3 +87,14 @@ class PoolConfig(ClusterConfig):
         for label in self.labels:
             if not LABEL.fullmatch(label):
                 yield "labels", f"{label!r} is not a word of A-Z a-z 0-9 _ . -"
+
+
+def _is_endpoint(text: str) -> bool:
+    try:
+        url = urlsplit(text)
+        rest = (url.path.strip("/"), url.query, url.fragment, url.username)
+        has_port = url.port is None or url.port > 0
+    except ValueError:
+        return False
+    is_named = bool(url.hostname) and re.search(r"[A-Za-z0-9]", url.hostname or "") is not None
+    return url.scheme in ("http", "https") and is_named and has_port and not any(rest)

@@ -45,7 +45,8 @@ def test_an_error_has_its_line_and_key(text, key):
 @pytest.mark.parametrize(
     ("key", "value"),
     [("s3_bucket", "Up"), ("s3_bucket", "a/b"), ("s3_endpoint", "s3.example.org"),
-     ("s3_region", "eu-north-1"), ("s3_credentials", "s3.txt"), ("s3_endpoint", "https://a/b")],
+     ("s3_region", "eu-north-1"), ("s3_credentials", "s3.txt"), ("s3_endpoint", "https://a/b"),
+     ("s3_endpoint", "http://[::1"), ("s3_endpoint", "http://a:99999"), ("s3_endpoint", "http://.")],
 )  # fmt: skip
 def test_s3_needs_a_bucket_and_the_address_of_a_service(key, value):
     pool = PoolConfig(servers="nats://a", address="here", **{key: value})

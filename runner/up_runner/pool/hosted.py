@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 from weakref import WeakValueDictionary
 
 from twisted.internet.defer import Deferred, DeferredList, DeferredLock
 
-from up.log import UpLogger
+from up.log import Limited, UpLogger
 from up.quick_dataclass import dataclass
 from up.system.deadline_watch import VARIABLE, now_s, read_deadline, write_deadline
 from up_cluster.errors import RefusedError, UnavailableError
@@ -39,6 +40,9 @@ LEASE_LOST = Problem("lease_lost", "its lease has expired or is another host's")
 MOVING = Problem("moving", "it moves to another host")
 _STAYS_WANTED = frozenset((LEASE_LOST.code, MOVING.code, STOPPING.code))
 UNAVAILABLE = (UnavailableError, RefusedError)
+FLIGHTS_S = 60.0
+"""After which flights that could not be saved are tried again."""
+LOG_INTERVAL_S = 60.0
 _log = UpLogger.get_logger("runner.pool")
 
 
@@ -62,7 +66,7 @@ class Hosted:
     is_orphan: bool = False
     wanted: int = 0
     written_s: float = 0.0
-    is_saving: bool = False
+    saving: DeferredLock = field(default_factory=DeferredLock)
 
 
 class HostedInstances:
@@ -88,7 +92,9 @@ class HostedInstances:
         self._hosted: dict[str, Hosted] = {}
         self._locks: WeakValueDictionary[str, DeferredLock] = WeakValueDictionary()
         self._endings: set[Deferred[Any]] = set()
-        self._saved_s = 0.0
+        self._saved_s = self._flights_s = 0.0
+        self._flights = DeferredLock()
+        self._limited = Limited(reactor, LOG_INTERVAL_S)
         host.permit = self._permit
         instances.on_end = self._on_end
 
@@ -146,12 +152,16 @@ class HostedInstances:
         await endings.addErrback(lambda _: None)
         for hosted in list(self._hosted.values()):
             self._member.leases.leave(hosted.lease)
+        self._limited.stop()
 
     def sweep(self) -> None:
         """Kill instances without a valid lease; write deadlines and changed files."""
         is_save_due = self._reactor.seconds() - self._saved_s >= SAVE_S
         if is_save_due:
             self._saved_s = self._reactor.seconds()
+        if self._saved_s - self._flights_s >= FLIGHTS_S and self._member.is_ready:
+            self._flights_s = self._saved_s
+            run(self.save_old_flights(), "the flights of earlier instances")
         for name in self._instances.states():
             instance, hosted = self._instances.get(name), self._hosted.get(name)
             if instance is None:
@@ -167,14 +177,20 @@ class HostedInstances:
                 run(self._adopt(instance), "the lease of an earlier runner")
 
     async def save_old_flights(self) -> None:
-        """Move the flights that an earlier runner could not."""
+        """Move the flights that this runner or an earlier one could not."""
+        if self._flights.locked:
+            return
         folders = await self._host.in_thread(
             lambda: list(self._host.folder.glob(f"*/{STATE_HOME}"))
         )
         for name in (each.parent.name for each in folders):
             # One that runs is not hosted before its lease is held, and still writes its flight.
             if name not in self._hosted and self._instances.get(name) is None:
-                await self.files(name).save_flights()
+                await self._save_flights(self.files(name))
+
+    async def _save_flights(self, files: StateFiles) -> None:
+        async with self._flights:
+            await files.save_flights()
 
     def _permit(self, name: str) -> Mapping[str, str]:
         """Allow the start of a process only before the deadline of its lease."""
@@ -246,13 +262,13 @@ class HostedInstances:
             if self._hosted.get(name) is not hosted or self._instances.get(name) is not None:
                 return
             if code != LEASE_LOST.code and hosted.wanted:
-                await self._save(hosted)
+                await self._save(hosted, is_last=True)
             if not (code in _STAYS_WANTED or hosted.is_orphan) and hosted.wanted:
                 await self._unwant(hosted, is_asleep=code == ASLEEP)
             del self._hosted[name]
             self._deadline_path(name).unlink(missing_ok=True)
             await self._member.leases.release(hosted.lease)
-        await hosted.files.save_flights()
+        await self._save_flights(hosted.files)
 
     async def _unwant(self, hosted: Hosted, *, is_asleep: bool) -> None:
         key = self._member.key("wanted", hosted.request.aircraft)
@@ -264,15 +280,18 @@ class HostedInstances:
             text = "{key} stays: {reason}"
             _log.warn(text, code="still_wanted", key=key, reason=str(error))
 
-    async def _save(self, hosted: Hosted) -> None:
-        if hosted.is_saving or self._is_over(hosted.request.aircraft, hosted):
+    async def _save(self, hosted: Hosted, *, is_last: bool = False) -> None:
+        """Save what has changed; the last time after a save that is not done yet."""
+        name = hosted.request.aircraft
+        if hosted.saving.locked and not is_last:
             return
-        hosted.is_saving = True
-        try:
-            await hosted.files.save()
-        except (*UNAVAILABLE, OSError) as error:
-            self._counts["state_not_saved"] += 1
-            text, name = "the files of {name} are not saved: {reason}", hosted.request.aircraft
-            _log.warn(text, code="state_not_saved", name=name, reason=str(error))
-        finally:
-            hosted.is_saving = False
+        async with hosted.saving:
+            if self._is_over(name, hosted):
+                return
+            try:
+                await hosted.files.save(lambda: not self._is_over(name, hosted))
+            except (*UNAVAILABLE, OSError) as error:
+                self._counts["state_not_saved"] += 1
+                text = "the files of {name} are not saved: {reason}"
+                fields = {"code": "state_not_saved", "name": name, "reason": str(error)}
+                self._limited.log(_log.warn, text, key=name, **fields)

@@ -13,7 +13,7 @@ from typing import Any
 from twisted.internet.task import deferLater
 
 from up.config.atomic_writer import write_atomically
-from up.log import UpLogger
+from up.log import Limited, UpLogger
 from up.system.clock import Timer, cancel
 from up.system.figures import Figure
 from up_cluster.config import ClusterError, read_secret
@@ -26,7 +26,7 @@ from up_runner.instances import Instances
 from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
 from up_runner.pool.fleet_actions import FleetActions
-from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
+from up_runner.pool.hosted import LOG_INTERVAL_S, UNAVAILABLE, HostedInstances, TakenError
 from up_runner.pool.messages import (
     ELSEWHERE,
     NO_ANSWER,
@@ -81,7 +81,7 @@ class Pool:
             replicas=config.pool.replicas,
         )
         self.id = self._member.id
-        store = self._new_store(folder, host)
+        store = self._new_store(folder)
         self._member.on_ready = self._on_ready
         self._member.on_connected = self._on_connected
         self._directory = PoolDirectory(reactor, self._member, self._counts)
@@ -96,25 +96,29 @@ class Pool:
         self._starting: set[str] = set()
         """Aircraft without a lease yet, which count for the quota."""
         self._is_stopped = False
+        self._limited = Limited(reactor, LOG_INTERVAL_S)
         self._sweep_timer: Timer | None = None
         self._beat_timer: Timer | None = None
 
-    def _new_store(self, folder: Path, host: InstanceHost) -> Store:
+    def _new_store(self, folder: Path) -> Store:
         pool, makers = self._config.pool, self._member.makers
         if not pool.s3_bucket:
             nats_store = ObjectStore(self._member.client, STORE)
             makers.append(nats_store.create)
             return nats_store
         try:
-            from up_cluster.s3_store import S3Store
+            from up_cluster.s3_store import S3Store, S3Threads
         except ImportError:
             reason = "s3_bucket needs the Python package boto3: pip install 'raspilot[s3]'"
             raise ClusterError("no_boto3", reason) from None
-        text = read_secret(folder / pool.s3_credentials) if pool.s3_credentials else ""
+        path = folder / pool.s3_credentials
+        text = read_secret(path) if pool.s3_credentials else ""
         key, _, secret = text.partition(":")
+        if text and not (key and secret):
+            raise ClusterError("cluster_credentials", f"{path} must be KEY:SECRET")
         try:
             store = S3Store(
-                host.in_thread,
+                S3Threads(self._reactor),
                 pool.s3_bucket,
                 endpoint=pool.s3_endpoint,
                 region=pool.s3_region,
@@ -136,6 +140,7 @@ class Pool:
         """Give up what has ended, and disconnect; instances that run on keep their leases."""
         self._is_stopped = True
         cancel(self._sweep_timer, self._beat_timer)
+        self._limited.stop()
         self._directory.stop()
         await self.hosted.stop()
         await self._member.stop()
@@ -291,11 +296,17 @@ class Pool:
             try:
                 await self.hosted.prepare(hosted)
                 response = self._named(await self._instances.spawn(request))
-            except UNAVAILABLE:
+            except UNAVAILABLE as error:
                 hosted.is_orphan = True
-                response = failed(name, CLUSTER, "the cluster does not answer")
+                response = failed(name, CLUSTER, f"its files cannot be read: {error}")
+                text = "{name} is not started: {reason}"
+                fields = {"code": "not_started", "name": name, "reason": str(error)}
+                self._limited.log(_log.warn, text, key=name, **fields)
             except OSError as error:
                 response = failed(name, "cannot_spawn", f"Raspilot cannot be started: {error}")
+            except Exception:
+                self.hosted.end(hosted, "cannot_spawn")
+                raise
             hosted.is_orphan &= not response.running
             if response.error is not None and self._instances.get(name) is None:
                 self.hosted.end(hosted, response.error.code)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable
+import secrets
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Protocol
@@ -17,6 +18,8 @@ from up_runner.instance_config import FOLDER, PROFILE_NOTE
 from up_runner.instance_host import InstanceHost
 
 MAX_STATE_BYTES = 2**20
+NOTE = "saved.json"
+"""In an instance's folder: revision and digest of what the store and this host had in common."""
 STATE_HOME = "state"
 """XDG_STATE_HOME of an instance, in its folder: the black box writes below it."""
 FLIGHTS = Path(STATE_HOME, "raspilot", "flights")
@@ -42,8 +45,9 @@ class Store(Protocol):
 class StateFiles:
     """The files of one aircraft: from the store before a start, into it afterwards.
 
-    `prefix` begins the names of its objects. `restore` and `save` raise UnavailableError and
-    RefusedError; `restore` OSError.
+    `prefix` begins the names of its objects. A note in the instance's folder says what this host
+    and the store last had in common. `restore` and `save` raise UnavailableError and RefusedError;
+    `restore` OSError.
     """
 
     def __init__(
@@ -63,7 +67,8 @@ class StateFiles:
     async def restore(self) -> None:
         """Write the files of the store into the folder, in place of those that are there.
 
-        Those of this host remain if the store has none, and go if the store's are damaged.
+        Those of this host remain if the store has none, or if they alone have changed since this
+        host and the store had the same. They go if the store's are damaged.
         """
         found: dict[str, Any] = {}
         try:
@@ -71,6 +76,10 @@ class StateFiles:
             if info is None:
                 return
             self._revision = info.revision
+            if await self._host.on_disk(self._is_newer_here):
+                text = "{name}: this host has a newer state, which was not saved"
+                _log.warn(text, code="state_kept", name=self._object)
+                return
             if info.size > MAX_STATE_BYTES:
                 raise ObjectDamagedError(self._object, "too_large", info.revision)
             found = _files_in(await self._store.get_bytes(info), self._object, info.revision)
@@ -85,23 +94,30 @@ class StateFiles:
         info = await self._store.info(self._object)
         self._revision = 0 if info is None else info.revision
 
-    async def save(self) -> None:
-        """Write the learned files if they have changed and no other host has written them."""
-        stamp, data = await self._host.on_disk(self._collect)
-        if data is None:
+    async def save(self, is_holder: Callable[[], bool]) -> None:
+        """Write the learned files if they have changed.
+
+        What another host has written meanwhile is replaced only if this one still holds the lease:
+        then it came late. Raises WrongRevisionError otherwise.
+        """
+        stamp, document = await self._host.on_disk(self._collect)
+        if document is None:
             self._stamp = stamp
             return
-        digest = hashlib.sha256(data).hexdigest()
         try:
-            revision = await self._put(data, digest)
+            revision, digest = await self._put(document)
         except WrongRevisionError:
             # An earlier write without an answer, or that of another host.
             stored = await self._store.info(self._object)
             if stored is None or await self._digest_of(stored) not in self._digests:
-                raise
-            self._revision = stored.revision
-            revision = await self._put(data, digest)
+                if not is_holder():
+                    raise
+                text = "{name}: another host has written it without the lease; it is replaced"
+                _log.warn(text, code="state_replaced", name=self._object)
+            self._revision = 0 if stored is None else stored.revision
+            revision, digest = await self._put(document)
         self._revision, self._digests, self._stamp = revision, {digest}, stamp
+        await self._host.on_disk(self._write_note, document)
         text = "{name} is saved: {files} files"
         _log.info(text, code="state_saved", name=self._object, files=len(stamp))
 
@@ -122,10 +138,16 @@ class StateFiles:
             _log.info("{name} is saved", code="flight_saved", name=name)
         await self._host.in_thread(self._remove_empty)
 
-    async def _put(self, data: bytes, digest: str) -> int | str:
+    async def _put(self, document: dict[str, Any]) -> tuple[int | str, str]:
+        """Write a document; return its revision and its digest.
+
+        Its number gives each write another revision where that comes from the content, as in S3.
+        """
+        data = json.dumps({**document, "write": secrets.token_hex(8)}, indent=1).encode()
+        digest = hashlib.sha256(data).hexdigest()
         self._digests.add(digest)
         written = await self._store.put_bytes(self._object, data, self._revision)
-        return written.revision  # type: ignore[no-any-return]
+        return written.revision, digest
 
     async def _digest_of(self, info: Any) -> str:
         try:
@@ -133,7 +155,7 @@ class StateFiles:
         except ObjectDamagedError:
             return ""
 
-    def _collect(self) -> tuple[list[tuple[str, int, int]], bytes | None]:
+    def _collect(self) -> tuple[list[tuple[str, int, int]], dict[str, Any] | None]:
         """Return what changes with the files, and the document; None: unchanged, or too large."""
         config = self._folder / FOLDER
         stamp, files = [], {}
@@ -150,12 +172,26 @@ class StateFiles:
             profile = (self._folder / PROFILE_NOTE).read_text(encoding="utf-8")
         except FileNotFoundError:
             profile = "\n"
-        data = json.dumps({"profile": profile, "files": files}, indent=1).encode()
-        if len(data) > MAX_STATE_BYTES:
+        document = {"profile": profile, "files": files}
+        if len(json.dumps(document, indent=1)) > MAX_STATE_BYTES:
             text = "{name} is not saved: more than {size} bytes"
             _log.error(text, code="state_not_saved", name=self._object, size=MAX_STATE_BYTES)
             return stamp, None
-        return stamp, data
+        return stamp, document
+
+    def _is_newer_here(self) -> bool:
+        """Return whether only the files of this host differ from what it last had of the store."""
+        try:
+            note = json.loads((self._folder / NOTE).read_text(encoding="utf-8"))
+            revision, digest = note["revision"], note["digest"]
+        except (OSError, ValueError, KeyError, TypeError):
+            return False
+        _, document = self._collect()
+        return document is not None and revision == self._revision and digest != _digest(document)
+
+    def _write_note(self, document: dict[str, Any]) -> None:
+        note = {"revision": self._revision, "digest": _digest(document)}
+        write_atomically(self._folder / NOTE, json.dumps(note).encode())
 
     def _replace(self, found: dict[str, Any]) -> None:
         config = self._folder / FOLDER
@@ -168,6 +204,7 @@ class StateFiles:
                 (config / name).unlink(missing_ok=True)
         if found:
             write_atomically(self._folder / PROFILE_NOTE, found["profile"].encode())
+            self._write_note(found)
 
     def _remove_empty(self) -> None:
         for folder in (FLIGHTS, *list(FLIGHTS.parents)[:-1]):
@@ -175,11 +212,18 @@ class StateFiles:
                 (self._folder / folder).rmdir()
 
 
+def _digest(document: dict[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
+
+
 def _files_in(data: bytes, name: str, revision: int | str) -> dict[str, Any]:
     """Return a stored document. Raises ObjectDamagedError."""
     try:
         found = json.loads(data)
         files = {str(key): str(text) for key, text in found["files"].items()}
-        return {"profile": str(found["profile"]), "files": files}
+        profile = str(found["profile"])
+        for text in (profile, *files.values()):
+            text.encode()  # Raises for a text that no file can have.
+        return {"profile": profile, "files": files}
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise ObjectDamagedError(name, "content", revision) from None

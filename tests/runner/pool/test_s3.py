@@ -10,12 +10,12 @@ from tests.cluster.fleet.up_fleet import UpFleet
 from tests.runner.pool.runner_pool import RunnerPool
 from tests.runner.pool.test_state_files import move
 from tests.support.nats_servers import NatsServers
-from tests.support.reactor import run_in_reactor
+from tests.support.reactor import reactor, run_in_reactor
 from tests.support.s3_server import BUCKET, KEY, SECRET, S3Server
 from tests.support.waiting import until
 from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
 from up_cluster.object_store import ObjectDamagedError
-from up_cluster.s3_store import UNCONDITIONAL, S3Store
+from up_cluster.s3_store import MAX_THREADS, UNCONDITIONAL, S3Store, S3Threads
 from up_runner.pool.state_files import FLIGHTS
 
 
@@ -63,23 +63,23 @@ def test_a_refusal_and_no_answer(s3):
 
 
 async def refuse(s3):
-    for store, code in (
-        (store_at(s3.endpoint, secret="wrong"), "SignatureDoesNotMatch"),
-        (store_at(s3.endpoint, bucket="absent"), "NoSuchBucket"),
-    ):
-        with pytest.raises(RefusedError) as refused:
-            await store.get_bytes(await store_at(s3.endpoint).put_bytes("t/x", b""))
-        assert refused.value.code == code
+    with pytest.raises(RefusedError) as refused:
+        await store_at(s3.endpoint, secret="wrong").put_bytes("t/x", b"")
+    assert refused.value.code == "SignatureDoesNotMatch"
+    assert await store_at(s3.endpoint).info("t/absent") is None
+    with pytest.raises(RefusedError) as refused:
+        await store_at(s3.endpoint, bucket="absent").info("t/absent")
+    assert refused.value.code == "404"
     with pytest.raises(UnavailableError):
         await store_at("http://127.0.0.1:1").info("t/x")
 
 
 class Ignorant(BaseHTTPRequestHandler):
-    """Takes every write, as services do that do not know conditions."""
+    """Takes every write except those with the condition that it knows."""
 
     def do_PUT(self):
         self.rfile.read(int(self.headers.get("Content-Length", 0)))
-        self.send_response(200)
+        self.send_response(412 if self.headers.get(self.server.known) else 200)
         self.send_header("ETag", '"0"')
         self.send_header("Content-Length", "0")
         self.end_headers()
@@ -88,8 +88,10 @@ class Ignorant(BaseHTTPRequestHandler):
         """Do not print."""
 
 
-def test_a_service_that_ignores_conditions_is_refused():
+@pytest.mark.parametrize("known", ["", "If-Match", "If-None-Match"])
+def test_a_service_that_ignores_conditions_is_refused(known):
     with ThreadingHTTPServer(("127.0.0.1", 0), Ignorant) as server:
+        server.known = known
         threading.Thread(target=server.serve_forever).start()
         store = store_at(f"http://127.0.0.1:{server.server_port}")
         try:
@@ -98,6 +100,20 @@ def test_a_service_that_ignores_conditions_is_refused():
         finally:
             server.shutdown()
     assert refused.value.code == UNCONDITIONAL
+
+
+def test_threads_that_wait_for_s3_leave_those_of_the_reactor_free():
+    run_in_reactor(wait_in_all)
+
+
+async def wait_in_all():
+    threads, end = S3Threads(reactor), threading.Event()
+    waiting = [threads(end.wait) for _ in range(2 * MAX_THREADS)]
+    assert await deferToThread(lambda: "free") == "free"
+    s3_threads = [each for each in threading.enumerate() if "s3" in each.name]
+    assert len(s3_threads) == MAX_THREADS and all(each.daemon for each in s3_threads)
+    end.set()
+    assert all([await each for each in waiting])
 
 
 def test_a_dead_host_leaves_its_files_to_another(s3, tmp_path, short_path):

@@ -40,6 +40,16 @@ class Host:
         return {each.name: each.read_text() for each in sorted(self.config.iterdir())}
 
 
+def never():
+    """Of a host whose lease has ended."""
+    return False
+
+
+def always():
+    """Of a host that holds the lease."""
+    return True
+
+
 class SilentStore:
     """A store that writes, and loses the answer."""
 
@@ -85,10 +95,10 @@ async def move(store, folder):
     (a.folder / "glider" / "profile").write_text("cub\n")
     first = a.files(store)
     await first.restore()
-    await first.save()
+    await first.save(never)
     assert a.present() == {"other.yml": "configuration", "pids.yml": "gains"}
     revision = (await store.info(OBJECT)).revision
-    await first.save()
+    await first.save(never)
     assert (await store.info(OBJECT)).revision == revision, "nothing has changed"
 
     # The next one replaces those that it had.
@@ -98,33 +108,59 @@ async def move(store, folder):
     assert b.present() == {"pids.yml": "gains"}
     assert (b.folder / "glider" / "profile").read_text() == "cub\n"
     b.write(mission_json="new")
-    await second.save()
+    await second.save(never)
 
     # A former host cannot replace the state of its successor.
     a.write(pids_yml="of a former host")
     with pytest.raises(WrongRevisionError):
-        await first.save()
+        await first.save(never)
     document = json.loads(await store.get_bytes(await store.info(OBJECT)))
     assert document["files"] == {"mission.json": "new", "pids.yml": "gains"}
+
+    # What comes late from one without the lease is replaced by the one that holds it.
+    await store.put_bytes(OBJECT, b"late")
+    b.write(mission_json="newer")
+    await second.save(always)
+    document = json.loads(await store.get_bytes(await store.info(OBJECT)))
+    assert document["files"]["mission.json"] == "newer"
+
+    # A state that could not be saved is kept on its host, until another host has written one.
+    b.write(mission_json="unsaved")
+    second = b.files(store)
+    await second.restore()
+    assert b.present()["mission.json"] == "unsaved"
+    await second.save(never)
+    successor = a.files(store)
+    await successor.restore()
+    a.write(mission_json="of the successor")
+    await successor.save(never)
+    b.write(mission_json="too late")
+    second = b.files(store)
+    await second.restore()
+    assert b.present()["mission.json"] == "of the successor"
 
     # A write without an answer does not stop those after it.
     store.is_silent = True
     b.write(mission_json="unanswered")
     with pytest.raises(UnavailableError):
-        await second.save()
+        await second.save(never)
     store.is_silent = False
     b.write(mission_json="answered")
-    await second.save()
+    await second.save(never)
     third = a.files(store)
     await third.restore()
     assert a.present()["mission.json"] == "answered"
 
     # A damaged state, or one that names other files, is not used; the next save replaces it.
-    for content in (b"[", b'{"profile": "", "files": {"../other.yml": "x", "other.yml": "x"}}'):
+    for content in (
+        b"[",
+        b'{"profile": "", "files": {"../other.yml": "x", "other.yml": "x"}}',
+        b'{"profile": "", "files": {"pids.yml": "\\ud800"}}',
+    ):
         await store.put_bytes(OBJECT, content)
         await third.restore()
         assert a.present() == {"other.yml": "configuration"}
-    await third.save()
+    await third.save(never)
     document = json.loads(await store.get_bytes(await store.info(OBJECT)))
     assert document["files"] == {}
 
