@@ -83,10 +83,10 @@ class FleetConfig:
 def read_secret(path: Path) -> str:
     """Return the one line of a file that only its owner may read. Raises ClusterError."""
     try:
+        text = path.read_text(encoding="utf-8").strip()
         if path.stat().st_mode & 0o077:
             reason = f"others may read {path}: run 'chmod 600 {path}'"
             raise ClusterError("cluster_credentials", reason)
-        text = path.read_text(encoding="utf-8").strip()
     except (OSError, UnicodeDecodeError) as error:
         reason = f"cannot read {path}: {getattr(error, 'strerror', None) or error}"
         raise ClusterError("no_file", reason) from None

@@ -20,8 +20,8 @@ MAX_EVIDENCE, CERTAIN = 1.5, 4.0
 """Of one acceleration, and for a verdict: logarithms of a likelihood ratio."""
 SILENT_S = 2.0
 DIVE_M_S2, DIVE_S = 1.5, 1.0
-"""Acceleration without thrust of a dive, and its least time: it leads to airspeeds at which the drag
-is not known. A descent at idle pushes as hard for half a second."""
+"""Acceleration without thrust of a dive, and its least time: it leads to airspeeds at which the
+drag is not known. A descent at idle pushes as hard for half a second."""
 SETTLING_S = 10.0
 """From the beginning of the flight, after a time without orientation, in which an attitude found
 anew may be wrong, and after a dive."""

@@ -329,7 +329,7 @@ class Pool:
         self._directory.beat(self.info())
 
     def _on_connected(self, is_connected: bool) -> None:
-        if not is_connected:
+        if not is_connected and not self._is_stopped:
             text = "NATS is lost: without it the instances end at their deadlines"
             _log.warn(text, code="pool_lost")
 
