@@ -132,12 +132,12 @@ async def move(store, folder):
     await second.save(never)
     successor = a.files(store)
     await successor.restore()
-    a.write(mission_json="of the successor")
+    a.write(mission_json="successor")
     await successor.save(never)
     b.write(mission_json="too late")
     second = b.files(store)
     await second.restore()
-    assert b.present()["mission.json"] == "of the successor"
+    assert b.present()["mission.json"] == "successor"
 
     # A write without an answer does not stop those after it.
     store.is_silent = True
