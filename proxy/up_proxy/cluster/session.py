@@ -1,6 +1,7 @@
 """One aircraft at a node of a cluster: its home, or the guest of another node (docs/cluster.md)."""
 
 from typing import TYPE_CHECKING, Any
+from zlib import crc32
 
 from twisted.internet.defer import Deferred, DeferredLock
 
@@ -51,7 +52,8 @@ class ClusterSession(AircraftSession):
         self._claims = 0
         self._home_since_s = 0.0
         self._remotes = RemoteGrounds(self.home_grounds, self._admit, self._send_control)
-        self._repeated_s = poller.now_s
+        # Of many aircraft that came together not all repeat in the same round.
+        self._repeated_s = poller.now_s - REPEAT_S * (crc32(name.encode()) % 1000) / 1000
         self._beaconed: tuple[bool, int | None] = (False, None)
         self._subject = node.subject(name)
         self._control_sid = node.subscribe(f"{self._subject}.control", self._on_control)
