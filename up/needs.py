@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from up.quick_dataclass import dataclass
@@ -49,6 +50,7 @@ def wants(module: type[_M]) -> _M | None:
     return cast("_M | None", Need(cast(Any, module), optional=True))
 
 
+@cache
 def declared_needs(cls: type) -> tuple[Need, ...]:
     """Return the declarations of a module class, including those of its base classes."""
     found: dict[str, Need] = {}
