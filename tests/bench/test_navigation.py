@@ -61,7 +61,7 @@ def test_a_leg_with_another_path_in_it_meets_no_target():
     [
         ("height rms, GPS frame", (1.0, 2.4, 1.1), "1.50, worst 2.40 (seed 8)", True),
         ("height rms, GPS frame", (1.0, 4.0, 1.0), "2.00, worst 4.00 (seed 8)", False),
-        ("position error after 30 s without fixes", (1.0, 31.0, 1.0), "worst 31.00 (seed 8)", False),
+        ("position error after 30 s without fixes", (1, 31, 1), "worst 31.00 (seed 8)", False),
         ("RETURN, least airspeed over stall", (1.3, 1.4, 1.19), "worst 1.19 (seed 9)", False),
         ("RETURN, least airspeed over stall", (1.3, 1.4, 1.21), "worst 1.21 (seed 9)", True),
     ],
