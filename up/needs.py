@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Container
-from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar, cast
+from weakref import WeakKeyDictionary
 
 from up.quick_dataclass import dataclass
 
@@ -50,13 +50,17 @@ def wants(module: type[_M]) -> _M | None:
     return cast("_M | None", Need(cast(Any, module), optional=True))
 
 
-@cache
+_declared: WeakKeyDictionary[type, tuple[Need, ...]] = WeakKeyDictionary()
+
+
 def declared_needs(cls: type) -> tuple[Need, ...]:
     """Return the declarations of a module class, including those of its base classes."""
-    found: dict[str, Need] = {}
-    for base in reversed(cls.__mro__):
-        found.update({n: each for n, each in vars(base).items() if isinstance(each, Need)})
-    return tuple(found.values())
+    if cls not in _declared:
+        found: dict[str, Need] = {}
+        for base in reversed(cls.__mro__):
+            found.update({n: each for n, each in vars(base).items() if isinstance(each, Need)})
+        _declared[cls] = tuple(found.values())
+    return _declared[cls]
 
 
 def needed_by(module: BaseModule) -> list[BaseModule]:
