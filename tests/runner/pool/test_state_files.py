@@ -107,11 +107,14 @@ async def move(store, folder):
     await second.restore()
     assert b.present() == {"pids.yml": "gains"}
     assert (b.folder / "glider" / "profile").read_text() == "cub\n"
-    b.write(mission_json="new")
     await second.save(never)
 
-    # A former host cannot replace the state of its successor.
+    # A former host cannot replace the state of its successor, even the same one.
     a.write(pids_yml="of a former host")
+    with pytest.raises(WrongRevisionError):
+        await first.save(never)
+    b.write(mission_json="new")
+    await second.save(never)
     with pytest.raises(WrongRevisionError):
         await first.save(never)
     document = json.loads(await store.get_bytes(await store.info(OBJECT)))
