@@ -2,8 +2,10 @@
 
 import json
 import shutil
+import signal
 import subprocess
 import sysconfig
+from contextlib import contextmanager
 from pathlib import Path
 
 import boto3
@@ -63,6 +65,22 @@ class S3Server:
     def __exit__(self, *_):
         self._process.kill()
         self._process.wait(DEADLINE_S)
+
+    @contextmanager
+    def paused(self):
+        """Stop it as SIGSTOP does, and let it go on at the end."""
+        self._process.send_signal(signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            self._process.send_signal(signal.SIGCONT)
+
+    def unread_bytes(self):
+        """Return what clients have sent to it and it has not read."""
+        port = f":{int(self.endpoint.rpartition(':')[2]):04X}"
+        lines = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
+        queues = [words[4] for words in lines if words[1].endswith(port)]
+        return sum(int(queue.partition(":")[2], 16) for queue in queues)
 
     def client(self):
         return boto3.client(

@@ -1,5 +1,6 @@
 """The files of a pool's instances in a real S3 service: the store, and two runners with it."""
 
+import json
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
@@ -136,8 +137,16 @@ def test_a_dead_host_leaves_its_files_to_another(s3, tmp_path, short_path):
         flights.mkdir(parents=True)
         (flights / "0001-a.mcap").write_bytes(b"flight")
         fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
-        fleet.ask("kick", "glider", "--instance")
+        # The last change comes while an earlier one is being saved.
+        with s3.paused():
+            moved.write_text('{"plan": 2}')
+            until(s3.unread_bytes, "the save")
+            moved.write_text('{"plan": 3}')
+            fleet.ask("kick", "glider", "--instance")
+            other.logs("ended", aircraft="glider")
         name = f"{pool.tenant}/glider/flights/0001-a.mcap"
         until(lambda: not flights.exists(), "the flight has left its host")
         found = s3.client().get_object(Bucket=BUCKET, Key=name)
         assert found["Body"].read() == b"flight"
+        state = s3.client().get_object(Bucket=BUCKET, Key=f"{pool.tenant}/glider/state")
+        assert json.load(state["Body"])["files"]["mission.json"] == '{"plan": 3}'
