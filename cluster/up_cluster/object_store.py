@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from twisted.internet.defer import Deferred
+from twisted.internet.threads import deferToThread
 
 from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.jetstream import EXPECTED, STREAM_NAME_EXISTS, api, stored, write
@@ -24,12 +25,12 @@ from up_cluster.nats_client import NatsClient
 CHUNK_BYTES = 128 * 1024
 ReadChunk = Callable[[int], "bytes | Deferred[bytes]"]
 """Returns the next bytes, at most as many as given; empty at the end."""
-InThread = Callable[..., "Deferred[Any]"]
-"""Calls a function with arguments in a thread."""
 
 
 class ObjectDamagedError(Exception):
-    """A stored object differs from the written one; `code` is `chunk_missing`, `digest`, ...
+    """A stored object differs from the written one.
+
+    `code` is `chunk_missing`, `digest`, `checksum`, `info`, `content` or `too_large`.
 
     `revision` is that of the object, for the write that replaces it.
     """
@@ -97,10 +98,10 @@ class ObjectStore:
         except (ValueError, KeyError, TypeError, AttributeError):
             raise ObjectDamagedError(name, "info", found.sequence) from None
 
-    async def put_file(self, name: str, path: Path, in_thread: InThread) -> None:
-        """Write an object from a file, which `in_thread` reads. Raises OSError, too."""
-        with await in_thread(path.open, "rb") as file:
-            await self.put(name, lambda size: in_thread(file.read, size))
+    async def put_file(self, name: str, path: Path) -> None:
+        """Write an object from a file. Raises OSError, too."""
+        with await deferToThread(path.open, "rb") as file:
+            await self.put(name, lambda size: deferToThread(file.read, size))
 
     async def put(self, name: str, read: ReadChunk, expected: int | None = None) -> ObjectInfo:
         """Write an object, and remove the chunks that it replaces.

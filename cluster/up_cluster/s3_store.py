@@ -28,7 +28,7 @@ from twisted.internet.threads import deferToThreadPool
 from twisted.python.threadpool import ThreadPool
 
 from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
-from up_cluster.object_store import InThread, ObjectDamagedError
+from up_cluster.object_store import ObjectDamagedError
 
 CONNECT_LIMIT_S, READ_LIMIT_S = 2.0, 5.0
 ATTEMPTS = 2
@@ -40,6 +40,9 @@ _DIGEST = "sha256"
 _NO_REVISION = f'"{0:032x}"'
 _NOT_FOUND = "404", "NoSuchKey"
 _WRONG_REVISION = "412", "PreconditionFailed", "ConditionalRequestConflict"
+
+InThread = Callable[..., Deferred[Any]]
+"""Calls a function with arguments in a thread."""
 
 
 class S3Object(NamedTuple):
@@ -152,7 +155,7 @@ class S3Store:
             raise
         return S3Object(name, len(data), str(done["ETag"]), digest)
 
-    async def put_file(self, name: str, path: Path, _in_thread: InThread) -> None:
+    async def put_file(self, name: str, path: Path) -> None:
         """Write an object from a file, in parts if it is large. Raises OSError, too."""
 
         def upload() -> None:
@@ -193,8 +196,6 @@ def _translated() -> Iterator[None]:
     """Raise the errors of a store in place of those of boto3."""
     try:
         yield
-    except (OSError, RefusedError, ObjectDamagedError):
-        raise
     except ClientError as error:
         fields = error.response.get("Error", {})
         code, text = str(fields.get("Code", "")), str(fields.get("Message", ""))

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from up.config.atomic_writer import write_atomically
 from up.log import UpLogger
 from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
-from up_cluster.object_store import InThread, ObjectDamagedError
+from up_cluster.object_store import ObjectDamagedError
 from up_runner.instance_config import FOLDER, PROFILE_NOTE
 from up_runner.instance_host import InstanceHost
 
@@ -38,7 +38,7 @@ class Store(Protocol):
     async def put_bytes(self, name: str, data: bytes, expected: Any, /) -> Any:
         """Write an object if its revision is `expected`, 0: none. Raises WrongRevisionError."""
 
-    async def put_file(self, name: str, path: Path, in_thread: InThread, /) -> None:
+    async def put_file(self, name: str, path: Path, /) -> None:
         """Write an object from a file. Raises OSError, too."""
 
 
@@ -127,7 +127,7 @@ class StateFiles:
         for path in await self._host.in_thread(lambda: sorted(folder.glob("*.mcap"))):
             name = f"{self._prefix}/flights/{path.name}"
             try:
-                await self._store.put_file(name, path, self._host.in_thread)
+                await self._store.put_file(name, path)
                 await self._host.in_thread(path.unlink)
             except (UnavailableError, RefusedError, OSError) as error:
                 text = "{name} is not saved, and stays on this host: {reason}"

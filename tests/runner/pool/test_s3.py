@@ -14,6 +14,7 @@ from tests.support.nats_servers import NatsServers
 from tests.support.reactor import reactor, run_in_reactor
 from tests.support.s3_server import BUCKET, KEY, SECRET, S3Server
 from tests.support.waiting import until
+from up_cluster import s3_store
 from up_cluster.errors import RefusedError, UnavailableError, WrongRevisionError
 from up_cluster.object_store import ObjectDamagedError
 from up_cluster.s3_store import MAX_THREADS, UNCONDITIONAL, S3Store, S3Threads
@@ -73,6 +74,19 @@ async def refuse(s3):
     assert refused.value.code == "404"
     with pytest.raises(UnavailableError):
         await store_at("http://127.0.0.1:1").info("t/x")
+
+
+def test_a_service_that_hangs_gives_no_answer(s3, monkeypatch, tmp_path):
+    monkeypatch.setattr(s3_store, "READ_LIMIT_S", 0.2)
+    (tmp_path / "flight").write_bytes(b"flight")
+    with s3.paused():
+        run_in_reactor(hang, store_at(s3.endpoint), tmp_path / "flight")
+
+
+async def hang(store, path):
+    for request in (store.info("t/x"), store.put_bytes("t/x", b""), store.put_file("t/x", path)):
+        with pytest.raises(UnavailableError):
+            await request
 
 
 class Ignorant(BaseHTTPRequestHandler):
