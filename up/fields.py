@@ -6,8 +6,9 @@ import difflib
 import math
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import field
-from typing import Any
+from dataclasses import Field, field
+from types import SimpleNamespace
+from typing import Any, get_type_hints
 
 from up.quick_dataclass import dataclass
 
@@ -30,6 +31,24 @@ _NOUNS: dict[type, str] = {str: "text", dict: "a map", list: "a list"}
 _INT_LIMIT = 2**63
 _SHOWN_CHARACTERS = 40
 _GUESSED_CHARACTERS = 60
+
+
+_PLAIN = {each.__name__: each for each in (bool, int, float, str)}
+
+
+def type_of(cls: type[Any], field: Field[Any]) -> Any:
+    """Return the type of a field, whose annotation may be text; that of a plain type at once."""
+    annotation: Any = field.type
+    if not isinstance(annotation, str):
+        return annotation
+    if annotation in _PLAIN:
+        return _PLAIN[annotation]
+    owner = next(
+        each for each in cls.__mro__ if field.name in vars(each).get("__annotations__", ())
+    )
+    holder = SimpleNamespace(__annotations__={field.name: annotation})
+    scope = vars(sys.modules[owner.__module__])
+    return get_type_hints(holder, globalns=scope)[field.name]
 
 
 class ConstraintError(ValueError):

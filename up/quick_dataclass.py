@@ -8,13 +8,11 @@ the constructor is compiled at its first use, and the others are not compiled at
 from __future__ import annotations
 
 import dataclasses
-import sys
 from collections.abc import Callable
 from dataclasses import MISSING, Field, FrozenInstanceError
 from operator import attrgetter
 from reprlib import recursive_repr
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dataclasses import dataclass as dataclass
@@ -78,24 +76,6 @@ class _Constructor:
         if vars(self._cls)["__init__"] is self:
             self._cls.__init__ = init
         return init if instance is None else init.__get__(instance, owner)
-
-
-_PLAIN = {each.__name__: each for each in (bool, int, float, str)}
-
-
-def type_of(cls: type[Any], field: Field[Any]) -> Any:
-    """Return the type of a field, whose annotation may be text; that of a plain type at once."""
-    annotation: Any = field.type
-    if not isinstance(annotation, str):
-        return annotation
-    if annotation in _PLAIN:
-        return _PLAIN[annotation]
-    owner = next(
-        each for each in cls.__mro__ if field.name in vars(each).get("__annotations__", ())
-    )
-    holder = SimpleNamespace(__annotations__={field.name: annotation})
-    scope = vars(sys.modules[owner.__module__])
-    return get_type_hints(holder, globalns=scope)[field.name]
 
 
 def _made(cls: Any, *, frozen: bool, slots: bool, eq: bool, kw_only: bool) -> Any:

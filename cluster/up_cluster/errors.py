@@ -2,9 +2,10 @@
 
 
 class UnavailableError(Exception):
-    """A request got no answer: `code` is `no_connection`, `timeout` or `no_responders`.
+    """A request got no answer, or none that counts; whether it was carried out is unknown.
 
-    After `timeout` and `no_connection` it is unknown whether the request was carried out.
+    `code` is `no_connection`, `timeout`, `no_responders` (not carried out), `contended` or
+    `malformed`; of S3 the class of the error in boto3.
     """
 
     def __init__(self, code: str, service: str = "NATS") -> None:

@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar, Self, TypeVar
 
 from up.commands.roles import Role
-from up.fields import Constraint
-from up.quick_dataclass import dataclass, type_of
+from up.fields import Constraint, type_of
+from up.quick_dataclass import dataclass
 
 _T = TypeVar("_T", bound="BaseCommand")
 RolesWhere = Mapping[str, Mapping[Any, frozenset[Role]]]

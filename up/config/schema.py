@@ -13,8 +13,8 @@ import typing
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar, cast
 
-from up.fields import Constraint, show
-from up.quick_dataclass import dataclass, type_of
+from up.fields import Constraint, show, type_of
+from up.quick_dataclass import dataclass
 
 T = TypeVar("T")
 V = TypeVar("V")

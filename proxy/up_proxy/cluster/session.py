@@ -1,7 +1,6 @@
 """One aircraft at a node of a cluster: its home, or the guest of another node (docs/cluster.md)."""
 
 from typing import TYPE_CHECKING, Any
-from zlib import crc32
 
 from twisted.internet.defer import Deferred, DeferredLock
 
@@ -18,7 +17,7 @@ from up.protocols.proxy_lines import (
     Side,
 )
 from up_cluster.errors import RefusedError, UnavailableError
-from up_cluster.lease import Lease, LeaseLostError, Record
+from up_cluster.lease import Lease, LeaseLostError, Record, phase_of
 from up_proxy.aircraft import AircraftSession, relay_to_all, without
 from up_proxy.cluster.guest_side import GuestSide
 from up_proxy.cluster.home_ground_side import HomeGroundSide
@@ -53,7 +52,7 @@ class ClusterSession(AircraftSession):
         self._home_since_s = 0.0
         self._remotes = RemoteGrounds(self.home_grounds, self._admit, self._send_control)
         # Of many aircraft that came together not all repeat in the same round.
-        self._repeated_s = poller.now_s - REPEAT_S * (crc32(name.encode()) % 1000) / 1000
+        self._repeated_s = poller.now_s - REPEAT_S * phase_of(name)
         self._beaconed: tuple[bool, int | None] = (False, None)
         self._subject = node.subject(name)
         self._control_sid = node.subscribe(f"{self._subject}.control", self._on_control)

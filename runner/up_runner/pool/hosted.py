@@ -17,7 +17,7 @@ from up.quick_dataclass import dataclass
 from up.system.deadline_watch import VARIABLE, now_s, read_deadline, write_deadline
 from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.lease import Lease, Record
-from up_cluster.membership import Membership, run, word
+from up_cluster.membership import LOG_INTERVAL_S, Membership, run, word
 from up_runner.config import RunnerConfig
 from up_runner.instance import Instance
 from up_runner.instance_config import ConfigurationRefused
@@ -42,7 +42,6 @@ _STAYS_WANTED = frozenset((LEASE_LOST.code, MOVING.code, STOPPING.code))
 UNAVAILABLE = (UnavailableError, RefusedError)
 FLIGHTS_S = 60.0
 """After which flights that could not be saved are tried again."""
-LOG_INTERVAL_S = 60.0
 _log = UpLogger.get_logger("runner.pool")
 
 

@@ -18,7 +18,7 @@ from up.system.clock import Timer, cancel
 from up.system.figures import Figure
 from up_cluster.config import ClusterError, read_secret
 from up_cluster.errors import RefusedError, UnavailableError
-from up_cluster.membership import Membership, run
+from up_cluster.membership import LOG_INTERVAL_S, Membership, run
 from up_cluster.object_store import ObjectStore
 from up_runner.config import RunnerConfig
 from up_runner.instance_host import InstanceHost
@@ -26,7 +26,7 @@ from up_runner.instances import Instances
 from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
 from up_runner.pool.fleet_actions import FleetActions
-from up_runner.pool.hosted import LOG_INTERVAL_S, UNAVAILABLE, HostedInstances, TakenError
+from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
 from up_runner.pool.messages import (
     ELSEWHERE,
     NO_ANSWER,
@@ -305,6 +305,7 @@ class Pool:
             except OSError as error:
                 response = failed(name, "cannot_spawn", f"Raspilot cannot be started: {error}")
             except Exception:
+                # A bug, which the caller logs: it may not keep the lease.
                 self.hosted.end(hosted, "cannot_spawn")
                 raise
             hosted.is_orphan &= not response.running
