@@ -166,13 +166,11 @@ class StateFiles:
         if stamp == self._stamp:
             return stamp, None
         for name, _, _ in stamp:
-            with suppress(FileNotFoundError, UnicodeDecodeError):
-                files[name] = (config / name).read_text(encoding="utf-8")
-        try:
-            profile = (self._folder / PROFILE_NOTE).read_text(encoding="utf-8")
-        except FileNotFoundError:
-            profile = "\n"
-        document = {"profile": profile, "files": files}
+            text = _text_of(config / name)
+            if text is not None:
+                files[name] = text
+        profile = _text_of(self._folder / PROFILE_NOTE)
+        document = {"profile": "\n" if profile is None else profile, "files": files}
         if len(json.dumps(document, indent=1)) > MAX_STATE_BYTES:
             text = "{name} is not saved: more than {size} bytes"
             _log.error(text, code="state_not_saved", name=self._object, size=MAX_STATE_BYTES)
@@ -210,6 +208,18 @@ class StateFiles:
         for folder in (FLIGHTS, *list(FLIGHTS.parents)[:-1]):
             with suppress(OSError):
                 (self._folder / folder).rmdir()
+
+
+def _text_of(path: Path) -> str | None:
+    """Return what is in a file; None without it, or if it is not UTF-8: the log names it then."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return None
+    except UnicodeDecodeError as error:
+        text = "{path} is not saved: {reason}"
+        _log.error(text, code="state_file_damaged", path=str(path), reason=str(error))
+        return None
 
 
 def _digest(document: dict[str, Any]) -> str:

@@ -4,6 +4,7 @@ import json
 
 import pytest
 from twisted.internet.threads import deferToThread
+from twisted.logger import capturedLogs
 
 from tests.cluster.connected import connected
 from tests.support.nats_servers import NatsServers
@@ -166,6 +167,19 @@ async def move(store, folder):
     await third.save(never)
     document = json.loads(await store.get_bytes(await store.info(OBJECT)))
     assert document["files"] == {}
+
+    # A learned file that is not text is named in the log, and does not stop the others.
+    a.write(pids_yml="gains")
+    (a.config / "mission.json").write_bytes(b"\xff")
+    (a.folder / "glider" / "profile").write_bytes(b"\xff")
+    with capturedLogs() as events:
+        await third.save(never)
+    codes = [each["code"] for each in events if each["log_namespace"] == "runner.pool"]
+    assert codes == ["state_file_damaged", "state_file_damaged", "state_saved"]
+    document = json.loads(await store.get_bytes(await store.info(OBJECT)))
+    assert document["profile"] == "\n"
+    assert document["files"] == {"pids.yml": "gains"}
+    (a.config / "mission.json").unlink()
 
     # Flights leave the host only when they are in the store.
     flights = a.folder / "glider" / FLIGHTS
