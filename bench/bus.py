@@ -1,6 +1,6 @@
 """The bus beside a dict of lists, pluggy and blinker: one publish, handlers that do nothing.
 
-Only ours isolates a handler's fault, notes the origin and times the dispatch.
+Only ours isolates a handler's fault and notes the origin.
 """
 
 from collections.abc import Callable, Iterable

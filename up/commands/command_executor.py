@@ -7,7 +7,7 @@ from collections import Counter, deque
 from collections.abc import Callable, Coroutine
 from functools import update_wrapper
 from inspect import iscoroutinefunction
-from time import monotonic, perf_counter
+from time import monotonic
 from typing import Any
 from uuid import UUID, uuid4
 
@@ -37,11 +37,9 @@ class CommandExecutor:
 
     Publishing is safe from any thread: on the reactor thread the handlers run immediately, from any
     other thread the Command is handed to the reactor. A publish from inside a handler waits until
-    the handlers of the current Command are done. ``dispatching_since`` (perf_counter seconds, 0:
-    idle) and ``dispatching`` show a monitor thread which handler blocks the event loop; the bus can
-    afford only one clock reading per Command (``up.system.reactor_monitor`` does the rest). An
-    observer sees every Command, but does not count as a handler. A Command with ``NEEDS_CONTROL``
-    is delivered only for the publisher that has control: its origin's link, or the calling module.
+    the handlers of the current Command are done. An observer sees every Command, but does not count
+    as a handler. A Command with ``NEEDS_CONTROL`` is delivered only for the publisher that has
+    control: its origin's link, or the calling module.
     """
 
     log = Logger()
@@ -52,6 +50,7 @@ class CommandExecutor:
         "_controlled",
         "_faults",
         "_handlers",
+        "_is_dispatching",
         "_is_draining",
         "_logged_names",
         "_observers",
@@ -61,8 +60,6 @@ class CommandExecutor:
         "_waiting",
         "control",
         "counters",
-        "dispatching",
-        "dispatching_since",
         "limited",
         "on_handler_failed",
         "origin",
@@ -80,8 +77,6 @@ class CommandExecutor:
         self.limited = limited
         self.control = PublisherControl(seconds)
         self.origin: Origin = INTERNAL
-        self.dispatching_since = 0.0
-        self.dispatching: BaseCommand | None = None
         self.counters: Counter[str] = Counter()
         self.on_handler_failed: Callable[[str], None] = _ignore
         self._call_from_thread = call_from_thread
@@ -93,6 +88,7 @@ class CommandExecutor:
         # Observers and handlers by Command, apart for those that need control.
         self._called: dict[str, tuple[Handler, ...]] = {}
         self._controlled: dict[str, tuple[Handler, ...]] = {}
+        self._is_dispatching = False
         self._is_draining = False
         self._waiting: deque[tuple[BaseCommand, Origin, Deferred[None] | None]] = deque()
         self._logged_names: set[str] = set()
@@ -163,12 +159,11 @@ class CommandExecutor:
         _handlers: tuple[Handler, ...] | None = None,
         _outcomes: list[Deferred[Any]] | None = None,
         _get_ident: Callable[[], int] = threading.get_ident,
-        _now: Callable[[], float] = perf_counter,
     ) -> None:
         """Publish a Command; a handler's exception does not reach the caller."""
         # ``execute_and_wait`` gives the handlers, and the list for their failures and later
         # results: the only loop over handlers is here, because a call of it costs 30 ns.
-        if (self.dispatching_since or _get_ident() != self._thread) and _outcomes is None:
+        if (self._is_dispatching or _get_ident() != self._thread) and _outcomes is None:
             self._postpone(command, origin)
             return
         handlers = _handlers
@@ -187,8 +182,7 @@ class CommandExecutor:
                 if not handlers:
                     return
         self.origin = origin
-        self.dispatching = command
-        self.dispatching_since = _now()
+        self._is_dispatching = True
         try:
             for handler in handlers:
                 try:
@@ -205,7 +199,7 @@ class CommandExecutor:
                         _outcomes.append(fail(failure))
         finally:
             # Reset after any exception: a bus that is marked busy never delivers again.
-            self.dispatching_since = 0.0
+            self._is_dispatching = False
         if self._waiting and not self._is_draining:
             self._drain()
 
@@ -220,7 +214,7 @@ class CommandExecutor:
         """
         done: Deferred[None] = Deferred()
         origin = _publisher(command, origin)
-        if self.dispatching_since:
+        if self._is_dispatching:
             self._waiting.append((command, origin, done))
         else:
             self._execute_awaited(command, origin, done)
@@ -252,7 +246,7 @@ class CommandExecutor:
         waiting = self._waiting
         self._is_draining = True
         try:
-            while waiting and not self.dispatching_since:
+            while waiting and not self._is_dispatching:
                 command, origin, done = waiting.popleft()
                 if done is not None:
                     self._execute_awaited(command, origin, done)
