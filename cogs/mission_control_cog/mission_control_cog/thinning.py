@@ -62,7 +62,7 @@ def events_of(content: Mapping[str, Any]) -> list[Any]:
     found = []
     for group, *names in _EVENTS:
         value = content.get(group)
-        found.append(value.get(names[0]) if names and isinstance(value, Mapping) else value)
+        found.append(value.get(names[0]) if names and isinstance(value, dict) else value)
     return found
 
 
