@@ -45,10 +45,8 @@ def can_connect(port):
 class Talk:
     """One connection that speaks lines."""
 
-    def __init__(self, port, source="127.0.0.1"):
-        self.socket = socket.create_connection(
-            ("127.0.0.1", port), LIMIT_S, source_address=(source, 0)
-        )
+    def __init__(self, port, source="127.0.0.1", host="127.0.0.1"):
+        self.socket = socket.create_connection((host, port), LIMIT_S, source_address=(source, 0))
         self.lines = self.socket.makefile("rb")
 
     def say(self, line):
@@ -101,7 +99,7 @@ class RunnerProcess:
         self.environ = {}
         self.prefix = []
         self.process = None
-        self.port = None
+        self.host, self.port = "127.0.0.1", None
         self._since = 0
         self.name = "glider-1"
         """The aircraft of requests that name none."""
@@ -179,7 +177,7 @@ class RunnerProcess:
 
     def ask(self, **request):
         """Send a request on its own connection."""
-        talk = Talk(self.port)
+        talk = Talk(self.port, "" if self.prefix else "127.0.0.1", self.host)
         try:
             return talk.ask({"aircraft": self.name, **request})
         finally:
