@@ -1,10 +1,8 @@
 package org.raspilot.up;
 
-import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertNotSame;
 import static org.junit.Assert.assertSame;
 import static org.junit.Assert.assertThrows;
-import static org.junit.Assert.assertTrue;
 import static org.junit.Assert.fail;
 
 import org.junit.After;
@@ -44,10 +42,9 @@ public final class UpTest {
         Up two = newUp();
         one.commandExecutor().registerCommand(Commands.ARM, command ->
                 fail("delivered to the other"));
-        assertEquals(0, two.commandExecutor().executeCommand(new BaseCommand(Commands.ARM)));
+        two.commandExecutor().executeCommand(new BaseCommand(Commands.ARM));
         assertNotSame(one.commandRegistry(), two.commandRegistry());
         assertNotSame(one.providersController(), two.providersController());
-        assertTrue(one.loop() == loop);
     }
 
     private Up newUp() {

@@ -48,11 +48,6 @@ public class BaseCommand {
         return message.id;
     }
 
-    /** Returns the beacon that it carries, or null. */
-    public final Long beacon() {
-        return message.beacon;
-    }
-
     public final GeneralMessage toMessage() {
         return message;
     }

@@ -42,14 +42,4 @@ public enum NackCode {
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }
-
-    /** Returns the code with that name, or null if unknown. */
-    public static NackCode ofWord(String word) {
-        for (NackCode code : values()) {
-            if (code.word().equals(word)) {
-                return code;
-            }
-        }
-        return null;
-    }
 }
