@@ -101,7 +101,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
     }
 
     long connections() {
-        return socket.counters().connects;
+        return socket.connects();
     }
 
     /** Returns the destination of orientation, or why it is not sent. */

@@ -73,10 +73,6 @@ final class GroundLink implements UpSocketListener {
         return facts;
     }
 
-    long tooLong() {
-        return socket.counters().tooLong;
-    }
-
     /** Returns whether messages can go now. */
     boolean isOpen() {
         return facts.state == LinkState.OPEN;
@@ -87,7 +83,6 @@ final class GroundLink implements UpSocketListener {
             return;
         }
         claim.reset();
-        facts.failures = 0;
         facts.rejection = "";
         facts.enter(LinkState.CONNECTING, loop.nowMs(), "", "");
         socket.start();
@@ -142,13 +137,6 @@ final class GroundLink implements UpSocketListener {
         return sendPlain(ControlLine.seatRequest());
     }
 
-    void dismissRequest() {
-        if (facts.requestedBy != null) {
-            facts.requestedBy = null;
-            listener.onLink();
-        }
-    }
-
     boolean giveControl(int to) {
         return ownsControl() && to >= 0 && sendPlain(ControlLine.seatGive(to));
     }
@@ -190,12 +178,10 @@ final class GroundLink implements UpSocketListener {
     public void onReceived(UpSocket from, byte[] bytes, int length) {
         quiet.onLine();
         if (ControlLine.isControlLine(bytes, length)) {
-            if (settings.isDirect) {
-                facts.strangeControl++;
-            } else if (isGreeted) {
-                onControl(ControlLine.read(bytes, length));
-            } else {
+            if (!isGreeted) {
                 onHelloAnswer(HelloAnswer.read(bytes, length));
+            } else if (!settings.isDirect) {
+                onControl(ControlLine.read(bytes, length));
             }
         } else if (!isGreeted) {
             socket.drop("not_a_proxy", "the other side does not answer a hello: not a Ground"
@@ -224,7 +210,6 @@ final class GroundLink implements UpSocketListener {
         }
         judged = status;
         if (status.state == UpSocketStatus.State.WAITING) {
-            facts.failures++;
             if (facts.state != LinkState.WAITING) {
                 close(LinkState.WAITING, status.code, status.sentence);
             }
@@ -247,14 +232,13 @@ final class GroundLink implements UpSocketListener {
     }
 
     private void onHelloAnswer(HelloAnswer answer) {
-        if (answer == null) {
-            facts.strangeControl++;
-        } else if (!answer.isAccepted()) {
+        if (answer == null || answer.role == ProxyRole.AIR) {
+            return;
+        }
+        if (!answer.isAccepted()) {
             facts.rejection = answer.code;
             socket.drop("hello_refused", "the proxy refuses: "
                     + SafeText.of(answer.reason, 300) + " (" + answer.code + ")");
-        } else if (answer.role == ProxyRole.AIR) {
-            facts.strangeControl++;
         } else {
             isGreeted = true;
             opened(Math.min(connectTookMs, loop.nowMs() - helloMs));
@@ -265,9 +249,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     private void onControl(ControlLine said) {
-        if (said == null) {
-            facts.strangeControl++;
-        } else {
+        if (said != null) {
             claim.onControl(said);
             if (said.kind == ControlLine.Kind.AIRCRAFT_ONLINE) {
                 security.renew();
@@ -289,10 +271,7 @@ final class GroundLink implements UpSocketListener {
             message = GeneralMessage.read(body, body.length);
         } catch (MalformedException fault) {
             if (fault.code.equals(PackedTelemetry.UNKNOWN_KEY)) {
-                facts.keyless++;
                 requestKey();
-            } else {
-                facts.malformed++;
             }
             return;
         }
@@ -323,8 +302,6 @@ final class GroundLink implements UpSocketListener {
         facts.enter(LinkState.OPEN, loop.nowMs(), "", "");
         facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
-        facts.failures = 0;
-        facts.connections++;
         security.start();
         if (settings.isDirect) {
             listener.onOpened();

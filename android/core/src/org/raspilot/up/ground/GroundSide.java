@@ -96,12 +96,7 @@ public final class GroundSide implements TelemetrySource {
     }
 
     public GroundStatus status() {
-        final long nowMs = loop.nowMs();
-        final Telemetry newest = stream.newest();
-        final LinkStatus facts = link.facts();
-        return new GroundStatus(facts, settings.isDirect, stream.rateHz(nowMs), newest, nowMs,
-                home.home(), new GroundCounters(facts, stream, link.tooLong(),
-                        answers.unmatched()));
+        return new GroundStatus(link.facts(), settings.isDirect, stream, loop.nowMs());
     }
 
     @Override
@@ -171,11 +166,6 @@ public final class GroundSide implements TelemetrySource {
     /** Leaves the seat free. False: it is not ours. */
     public boolean releaseControl() {
         return link.releaseControl();
-    }
-
-    /** Discards the request for the seat: the pilot keeps it. */
-    public void dismissControlRequest() {
-        link.dismissRequest();
     }
 
     private void transmit(final BaseCommand command, Long shownBeacon,

@@ -58,7 +58,6 @@ final class PendingCommands {
     private final Random random;
     private final Map<String, Sent> sent = new LinkedHashMap<>();
     private long number;
-    private long unmatched;
 
     PendingCommands(Loop loop, Random random) {
         this.loop = loop;
@@ -68,11 +67,6 @@ final class PendingCommands {
     /** Returns how many Commands wait for their answer. */
     int waiting() {
         return sent.size();
-    }
-
-    /** Returns how many answers were of no Command that waits: other grounds', or late ones. */
-    long unmatched() {
-        return unmatched;
     }
 
     /** Returns the id to send a Command with; the listener receives its outcome. */
@@ -106,9 +100,8 @@ final class PendingCommands {
         if (isAck || message.name.equals(Commands.NACK)) {
             final Object id = message.data.get("id");
             final Sent found = id instanceof String ? sent.get(id) : null;
-            if (found == null) {
-                unmatched++;
-            } else {
+            // Others are late, or those of other grounds.
+            if (found != null) {
                 onAnswer(found, isAck, message.data);
             }
             return;

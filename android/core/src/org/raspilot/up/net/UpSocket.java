@@ -31,9 +31,6 @@ public final class UpSocket {
     private Attempt current;
     private Cancellable retry;
     private long connects;
-    private long lost;
-    private long dropped;
-    private long received;
 
     /**
      * Creates a socket that is not started.
@@ -48,7 +45,7 @@ public final class UpSocket {
         this.settings = settings;
         queue = new SendQueue(settings.isRaw);
         backOff = new BackOff(settings.initialRetryMs, settings.maxRetryMs, random);
-        lines = new LineDispatcher(loop, line -> receive(line, line.length));
+        lines = new LineDispatcher(loop, line -> listener.onReceived(this, line, line.length));
         watch = new ConnectionWatchdog(loop, settings, () -> beat(), () -> drop("stalled",
                 current.peer + " took nothing for " + settings.stallLimitMs + " ms"));
     }
@@ -95,7 +92,6 @@ public final class UpSocket {
         final long nowMs = loop.nowMs();
         long tookMs = nowMs - current.beganMs;
         if (isConnected()) {
-            lost++;
             tookMs = 0;
             if (nowMs - current.connectedMs >= settings.maxRetryMs) {
                 // Not earlier: the wait must grow for a peer that always hangs up immediately.
@@ -118,7 +114,7 @@ public final class UpSocket {
      *     16 KiB: nothing is kept for later
      */
     public boolean send(byte[] bytes) {
-        return count(isConnected() && queue.add(bytes));
+        return flushIf(isConnected() && queue.add(bytes));
     }
 
     /**
@@ -128,7 +124,7 @@ public final class UpSocket {
      *     than 16 KiB: nothing is kept for later
      */
     public boolean sendNewest(Object key, byte[] bytes) {
-        return count(isConnected() && queue.replace(key, bytes));
+        return flushIf(isConnected() && queue.replace(key, bytes));
     }
 
     /** Returns whether a connection is there. */
@@ -136,18 +132,13 @@ public final class UpSocket {
         return status.isConnected();
     }
 
-    /** Returns how many bytes wait for the system to take them. */
-    public int waitingBytes() {
-        return queue.waitingBytes();
-    }
-
     public UpSocketStatus status() {
         return status;
     }
 
-    public UpSocketCounters counters() {
-        return new UpSocketCounters(connects, lost, queue.sent(), dropped,
-                queue.replaced(), received, lines.tooLong(), queue.bytesOut());
+    /** Returns how often it was connected. */
+    public long connects() {
+        return connects;
     }
 
     private void attempt() {
@@ -174,7 +165,7 @@ public final class UpSocket {
         }
         watch.stop();
         lines.end();
-        dropped += queue.clear();
+        queue.clear();
         if (current != null) {
             final Attempt ended = current;
             current = null;
@@ -189,32 +180,22 @@ public final class UpSocket {
         loop.post(() -> listener.onStatus(UpSocket.this));
     }
 
-    private boolean count(boolean isTaken) {
+    private boolean flushIf(boolean isTaken) {
         if (isTaken) {
             flush();
-        } else {
-            dropped++;
         }
         return isTaken;
     }
 
     private void flush() {
-        final long beforeBytes = queue.bytesOut();
-        queue.flush(current.connection);
-        watch.onWritten(queue.bytesOut() - beforeBytes, !queue.isEmpty());
-    }
-
-    private void receive(byte[] bytes, int length) {
-        received++;
-        listener.onReceived(this, bytes, length);
+        final int bytes = queue.flush(current.connection);
+        watch.onWritten(bytes, !queue.isEmpty());
     }
 
     /** What waits is a sign of life itself, and a line must not be broken. */
     private void beat() {
         if (queue.isEmpty()) {
-            final int taken = current.connection.write(new byte[] {LF}, 0, 1);
-            queue.wrote(taken);
-            watch.onWritten(taken, false);
+            watch.onWritten(current.connection.write(new byte[] {LF}, 0, 1), false);
         }
     }
 
@@ -268,7 +249,7 @@ public final class UpSocket {
         @Override
         public void onBytes(byte[] bytes, int length) {
             if (settings.isRaw) {
-                receive(bytes, length);
+                listener.onReceived(UpSocket.this, bytes, length);
             } else {
                 lines.feed(bytes, length);
             }

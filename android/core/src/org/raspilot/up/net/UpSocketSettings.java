@@ -23,15 +23,12 @@ public final class UpSocketSettings {
     UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
             int initialRetryMs, int maxRetryMs, TlsIdentity tls) {
         this.isRaw = isRaw;
-        this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
-        this.heartbeatMs = atLeast(0, heartbeatMs);
-        this.stallLimitMs = atLeast(0, stallLimitMs);
-        this.initialRetryMs = atLeast(1, initialRetryMs);
-        this.maxRetryMs = atLeast(initialRetryMs, maxRetryMs);
+        this.connectTimeoutMs = connectTimeoutMs;
+        this.heartbeatMs = heartbeatMs;
+        this.stallLimitMs = stallLimitMs;
+        this.initialRetryMs = initialRetryMs;
+        this.maxRetryMs = maxRetryMs;
         this.tls = tls;
-        if (isRaw && heartbeatMs > 0) {
-            throw new IllegalArgumentException("raw frames have no heartbeat");
-        }
     }
 
     /**
@@ -63,12 +60,5 @@ public final class UpSocketSettings {
     public UpSocketSettings withTls(TlsIdentity identity) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, stallLimitMs,
                 initialRetryMs, maxRetryMs, identity);
-    }
-
-    private static int atLeast(int least, int value) {
-        if (value < least) {
-            throw new IllegalArgumentException("a time of " + value + " ms is below " + least);
-        }
-        return value;
     }
 }

@@ -206,7 +206,6 @@ public final class GroundCommandsTest {
         bench.say("{\"name\": \"up.ack\", \"data\": {\"id\": 5}}");
         bench.say("{\"name\": \"up.ack\", \"data\": {}}");
         assertTrue(bench.answers.isEmpty());
-        assertEquals(3, bench.ground.status().counters.strangeAnswers);
         bench.nack(id, "refused", "transmitter\\u0007");
         final Answer answer = bench.answer();
         assertEquals(Answer.Outcome.NACK, answer.outcome);

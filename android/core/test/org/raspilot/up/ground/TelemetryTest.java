@@ -164,9 +164,7 @@ public final class TelemetryTest {
                 new Track().update(hostile, null, 0);
                 new HomeEstimator().update(hostile);
                 new EventMonitor(new EventLog(), new Alarms()).update(hostile,
-                        new GroundStatus(new LinkStatus(), false, null, hostile, 0, null,
-                                new GroundCounters(new LinkStatus(), new TelemetryStream(),
-                                        0, 0)), 0);
+                        new GroundStatus(new LinkStatus(), false, new TelemetryStream(), 0), 0);
             } catch (RuntimeException fault) {
                 throw new AssertionError("seed " + seed, fault);
             }

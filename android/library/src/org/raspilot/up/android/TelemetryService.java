@@ -141,11 +141,6 @@ public abstract class TelemetryService extends Service {
             post(side -> side.requestControl());
         }
 
-        /** Called when the user keeps the seat that another ground requested. */
-        public void dismissControlRequest() {
-            post(side -> side.dismissControlRequest());
-        }
-
         /** Hands the seat to the ground of a number. */
         public void giveControl(final int to) {
             post(side -> side.giveControl(to));

@@ -94,7 +94,7 @@ public final class ControlPanel implements View.OnClickListener {
         }
         Double wayMs = status.roundTripMs;
         String rate = words.getString(R.string.control_rate, status.rateHz,
-                status.counters.lostFrames);
+                status.lostFrames);
         return text + " " + (wayMs == null ? rate : rate + " "
                 + words.getString(R.string.control_way, Math.round(wayMs)));
     }

@@ -94,7 +94,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         event.put("tls", status.isTls);
         event.put("code", status.code);
         event.put("key_fault", status.keyFault);
-        event.put("refused", status.counters.refused);
+        event.put("refused", status.refused);
         event.put("tune_in_flight", status.tuneInFlight);
         event.put("reason", status.reason);
         event.put("rejection", status.rejection);
