@@ -39,7 +39,7 @@ public final class Airborne {
         basics = new BasicProviders(settings, sensors);
         basics.register(providers());
         silence = new SensorSilenceMonitor(loop, providers(), listener);
-        providers().addListener((name, sentence) ->
+        providers().setListener((name, sentence) ->
                 listener.onEvent("provider_problem", name + ": " + sentence));
         providers().panic().addListener(panic -> listener.onPanic(panic.delayMs()));
     }

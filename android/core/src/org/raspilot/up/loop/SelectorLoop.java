@@ -108,11 +108,6 @@ public final class SelectorLoop implements Loop, Network {
         }
     }
 
-    /** Returns the number of calls that threw; may be called on any thread. */
-    public long faults() {
-        return guard.faults();
-    }
-
     /** Returns the number of wake-ups; may be called on any thread. */
     public long rounds() {
         return rounds.get();
@@ -138,8 +133,7 @@ public final class SelectorLoop implements Loop, Network {
         return timers.add(clock.nowNs() + Math.min(delayNs, Long.MAX_VALUE / 2), call);
     }
 
-    @Override
-    public boolean isInLoop() {
+    boolean isInLoop() {
         return Thread.currentThread() == thread;
     }
 
@@ -174,7 +168,7 @@ public final class SelectorLoop implements Loop, Network {
         return sockets.register(channel, operations, ready);
     }
 
-    /** Counts and reports a fault that belongs to no call. */
+    /** Reports a fault that belongs to no call. */
     void report(Throwable fault) {
         guard.report(fault);
     }
@@ -222,7 +216,7 @@ public final class SelectorLoop implements Loop, Network {
         TimerQueue.Timer timer = timers.take(nowNs, mark);
         while (timer != null) {
             sockets.hadReason();
-            run(timer.call());
+            run(timer.call);
             timer = timers.take(nowNs, mark);
         }
     }
@@ -259,7 +253,7 @@ public final class SelectorLoop implements Loop, Network {
         if (first == null) {
             return -1;
         }
-        final long waitNs = Math.max(0, first.time() - nowNs);
+        final long waitNs = Math.max(0, first.time - nowNs);
         return (waitNs + 999999L) / 1000000L;
     }
 

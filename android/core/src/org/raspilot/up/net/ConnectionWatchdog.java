@@ -79,6 +79,7 @@ final class ConnectionWatchdog {
         void stop() {
             if (timer != null) {
                 timer.cancel();
+                timer = null;
             }
         }
 
@@ -88,7 +89,7 @@ final class ConnectionWatchdog {
         }
 
         boolean isRunning() {
-            return timer != null && timer.isPending();
+            return timer != null;
         }
 
         private void check() {
@@ -98,6 +99,7 @@ final class ConnectionWatchdog {
             } else if (!isSecondLook) {
                 checkAfter(0, true);
             } else {
+                timer = null;
                 onIdle.run();
             }
         }

@@ -86,11 +86,6 @@ public final class DiscoveryClient implements EndpointDiscovery {
         }
 
         @Override
-        public boolean isPending() {
-            return isPending;
-        }
-
-        @Override
         public void onDatagram(byte[] bytes, int length, String host, int sourcePort) {
             final String found = sourcePort == port
                     ? DiscoveryAnswer.read(bytes, length, host) : null;

@@ -92,11 +92,6 @@ public final class RunnerClient implements EndpointDiscovery {
         }
 
         @Override
-        public boolean isPending() {
-            return isPending;
-        }
-
-        @Override
         public void onConnected() {
             limit = loop.schedule(ANSWER_MS, () ->
                     fail("no_answer",

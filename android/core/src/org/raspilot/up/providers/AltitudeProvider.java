@@ -39,11 +39,6 @@ public final class AltitudeProvider extends SensorProvider<AltitudeProvider.Pres
         referenceHPa = hPa;
     }
 
-    /** Returns the pressure at altitude zero, hPa. */
-    public double referenceHPa() {
-        return referenceHPa;
-    }
-
     /**
      * Sets the altitude at the device's position to zero; returns the reference pressure, hPa.
      *

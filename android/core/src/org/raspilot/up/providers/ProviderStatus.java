@@ -13,18 +13,9 @@ public final class ProviderStatus {
     public final String lastText;
     /** The problem in one sentence, or an empty text. */
     public final String problem;
-    /** How many messages left since it was registered. */
-    public final long sent;
 
-    public ProviderStatus(
-            String name,
-            String sensor,
-            ProviderState state,
-            double rateHz,
-            long ageMs,
-            String lastText,
-            String problem,
-            long sent) {
+    ProviderStatus(String name, String sensor, ProviderState state, double rateHz, long ageMs,
+            String lastText, String problem) {
         this.name = name;
         this.sensor = sensor;
         this.state = state;
@@ -32,7 +23,6 @@ public final class ProviderStatus {
         this.ageMs = ageMs;
         this.lastText = lastText;
         this.problem = problem;
-        this.sent = sent;
     }
 
     /** What a provider does now. */

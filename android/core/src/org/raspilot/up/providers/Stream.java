@@ -15,7 +15,7 @@ final class Stream implements Panic.Listener {
     private final Loop loop;
     private final Panic panic;
     private final RatePolicy ratePolicy;
-    private final Sender sender;
+    private final UpProvider provider;
     private final RateMeter rate = new RateMeter();
     private final Runnable pumping = () -> sendIfDue(false);
     private Cancellable timer;
@@ -25,22 +25,12 @@ final class Stream implements Panic.Listener {
     private long newestMs = -1;
     private long lastMs;
     private double dueMs;
-    private long sent;
 
-    /** What it drives: the provider. */
-    interface Sender {
-        /** Returns whether there is a link now. */
-        boolean isOpen();
-
-        /** Sends the newest reading; returns whether it left. */
-        boolean transmit();
-    }
-
-    Stream(Loop loop, Panic panic, RatePolicy ratePolicy, Sender sender) {
+    Stream(Loop loop, Panic panic, RatePolicy ratePolicy, UpProvider provider) {
         this.loop = loop;
         this.panic = panic;
         this.ratePolicy = ratePolicy;
-        this.sender = sender;
+        this.provider = provider;
     }
 
     void begin() {
@@ -82,10 +72,6 @@ final class Stream implements Panic.Listener {
         return newestMs;
     }
 
-    long sent() {
-        return sent;
-    }
-
     /** Returns how many left in the last second, Hz. */
     double hz() {
         return rate.hz(loop.nowMs());
@@ -96,7 +82,7 @@ final class Stream implements Panic.Listener {
         cancel();
         long nowMs = loop.nowMs();
         double wantedMs = wantedMs();
-        if (wantedMs == NEVER || !sender.isOpen()) {
+        if (wantedMs == NEVER || !provider.isOpen()) {
             return;
         }
         if (nowMs >= (isPrompt ? promptMs(wantedMs) : wantedMs)) {
@@ -141,8 +127,7 @@ final class Stream implements Panic.Listener {
         dueMs = (isInStep ? dueMs : nowMs) + ratePolicy.periodMs;
         isFirst = false;
         lastMs = nowMs;
-        if (sender.transmit()) {
-            sent++;
+        if (provider.transmit()) {
             rate.count(nowMs);
         }
     }

@@ -26,7 +26,6 @@ public final class AirborneOrientationTest {
             assertEquals(1, other.network.connections.size());
             assertEquals(0, other.network.ports.size());
             assertEquals(0, other.airborne.status().orientationHz(), 0);
-            assertEquals(null, other.airborne.providers().provider("orientation"));
             assertEquals(0, other.gyroscope.periodsMs.size());
         }
     }

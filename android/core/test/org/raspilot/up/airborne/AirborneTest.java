@@ -69,7 +69,7 @@ public final class AirborneTest {
         connection.room = 0;
         bench.fly(20, 1800);
         bench.loop.advance(1000);
-        bench.gps.give(new Fix(1, 2, null, null, null, null));
+        bench.gps.give(new Fix(1, 2, null, null, null, null, null, null));
         connection.makeRoom(Integer.MAX_VALUE);
         List<String> lines = bench.lines();
         assertEquals(1, AirborneBench.count(lines, "up.location.update"));
@@ -84,7 +84,7 @@ public final class AirborneTest {
         bench.fly(20, 1000);
         bench.general().end("the Raspberry Pi closed the connection");
         bench.loop.advance(0);
-        bench.gps.give(new Fix(11, 11, null, null, null, null));
+        bench.gps.give(new Fix(11, 11, null, null, null, null, null, null));
         bench.barometer.give(new Pressure(900));
         bench.rotation.give(AirborneBench.LEVEL);
         bench.loop.advance(5000);
@@ -101,7 +101,7 @@ public final class AirborneTest {
     public void whatWaitedOnTheOldConnectionDiesWithIt() {
         bench.connected(AirborneBench.fixed().build());
         bench.general().room = 30;
-        bench.gps.give(new Fix(11, 11, null, null, null, null));
+        bench.gps.give(new Fix(11, 11, null, null, null, null, null, null));
         bench.general().end("gone");
         bench.loop.advance(5000);
         bench.accept(50001);

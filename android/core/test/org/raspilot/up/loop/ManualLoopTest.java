@@ -1,7 +1,6 @@
 package org.raspilot.up.loop;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
@@ -31,11 +30,8 @@ public final class ManualLoopTest {
     public void aCancelledTimerDoesNotRun() {
         final Cancellable first = loop.schedule(10, note("first"));
         final Cancellable second = loop.schedule(20, note("second"));
-        assertTrue(second.isPending());
         second.cancel();
-        assertFalse(second.isPending());
         loop.advance(10);
-        assertFalse(first.isPending());
         first.cancel();
         second.cancel();
         loop.advance(100);
@@ -70,7 +66,6 @@ public final class ManualLoopTest {
         loop.advance(10);
         assertEquals(Arrays.asList("other at 10"), done);
         assertEquals(Arrays.<Throwable>asList(error, fault), faults.all());
-        assertEquals(2, loop.faults());
     }
 
     @Test

@@ -299,10 +299,5 @@ public final class UpSocketTest {
         public void cancel() {
             isCancelled = true;
         }
-
-        @Override
-        public boolean isPending() {
-            return !isCancelled;
-        }
     }
 }
