@@ -23,16 +23,6 @@ public final class Alarms {
             this.active = active;
         }
 
-        /** Returns whether an active alarm should sound and vibrate. */
-        public boolean isLoud() {
-            for (Alarm each : active) {
-                if (each.isLoud()) {
-                    return true;
-                }
-            }
-            return false;
-        }
-
         /** Returns whether an alarm of that kind is active. */
         public boolean has(String kind) {
             for (Alarm each : active) {

@@ -32,7 +32,7 @@ public final class EventLog {
     /** Adds an event; {@code code} as in {@link Event#code}. */
     public void add(long atMs, EventLevel level, String code, String text) {
         number++;
-        events.add(new Event(number, atMs, level, code, SafeText.of(text, MAX_TEXT_LENGTH)));
+        events.add(new Event(atMs, level, code, SafeText.of(text, MAX_TEXT_LENGTH)));
         if (events.size() > MAX_ENTRIES) {
             events.remove();
         }

@@ -185,7 +185,7 @@ public final class GainsService {
 
     private void record(GainSet before, GainSet after, Answer answer, boolean isUndo) {
         number++;
-        history.add(new GainsEntry(number, loop.nowMs(), before, after, answer));
+        history.add(new GainsEntry(number, before, after, answer));
         if (history.size() > MAX_ENTRIES) {
             history.remove();
         }
@@ -246,16 +246,13 @@ public final class GainsService {
     public static final class GainsEntry {
         /** Its number, counting up from 1. */
         public final int number;
-        /** When its answer came, by the loop's clock, ms. */
-        public final long atMs;
         /** What flew before; null: not known. */
         public final GainSet before;
         public final GainSet after;
         public final Answer answer;
 
-        GainsEntry(int number, long atMs, GainSet before, GainSet after, Answer answer) {
+        GainsEntry(int number, GainSet before, GainSet after, Answer answer) {
             this.number = number;
-            this.atMs = atMs;
             this.before = before;
             this.after = after;
             this.answer = answer;

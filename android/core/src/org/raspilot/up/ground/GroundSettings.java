@@ -66,11 +66,6 @@ public final class GroundSettings {
         return new GroundSettings(host, port, aircraft, role, isDirect, pairing, identity);
     }
 
-    /** Returns host and port as people write them. */
-    public String address() {
-        return host.indexOf(':') >= 0 ? "[" + host + "]:" + port : host + ":" + port;
-    }
-
     /** Returns the key of this aircraft's token in a {@link TokenStore}. */
     public String tokenKey() {
         return host + "_" + port + "_" + aircraft;

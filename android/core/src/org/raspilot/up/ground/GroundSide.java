@@ -32,7 +32,6 @@ public final class GroundSide implements TelemetrySource {
     private final TelemetryStream stream = new TelemetryStream();
     private final ShownBeacons beacons = new ShownBeacons();
     private final PendingCommands answers;
-    private final CommandGate gate;
     private final CommandService desk;
     private final GainsService gains;
     private final HomeEstimator home = new HomeEstimator();
@@ -62,8 +61,7 @@ public final class GroundSide implements TelemetrySource {
         this.listener = listener;
         link = new GroundLink(loop, settings, tokens, new Links(), random);
         answers = new PendingCommands(loop, random);
-        gate = new CommandGate(loop, settings, link, answers, beacons);
-        desk = new CommandService(loop, link, gate, answers, beacons);
+        desk = new CommandService(loop, link, settings, answers, beacons);
         gains = new GainsService(loop, (command, shownBeacon, answered) ->
                 transmit(command, shownBeacon, answered));
     }
@@ -119,16 +117,6 @@ public final class GroundSide implements TelemetrySource {
 
     public GainsService gains() {
         return gains;
-    }
-
-    /** Called when the screen has drawn the frame with that beacon; null: without one. */
-    public void onShown(Long beacon) {
-        beacons.onShown(beacon);
-    }
-
-    /** Sends a Command with the newest beacon that was {@link #onShown}. */
-    public void send(BaseCommand command, AnswerListener answered) {
-        send(command, beacons.newestShown(), answered);
     }
 
     /**
@@ -201,7 +189,8 @@ public final class GroundSide implements TelemetrySource {
         if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
-        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)
+        final ControlStatus control = ControlStatus.of(link.facts(), settings.isDirect);
+        if (control == ControlStatus.OURS && !frame.isSilent(nowMs)
                 && link.facts().keyFault().isEmpty()) {
             gains.onTick();
         }

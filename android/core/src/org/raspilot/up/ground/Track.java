@@ -44,13 +44,11 @@ public final class Track {
     private static final class Spot {
         final double latitudeDeg;
         final double longitudeDeg;
-        final Double altitudeM;
         final boolean isAfterSilence;
 
-        Spot(double latitudeDeg, double longitudeDeg, Double altitudeM, boolean isAfterSilence) {
+        Spot(double latitudeDeg, double longitudeDeg, boolean isAfterSilence) {
             this.latitudeDeg = latitudeDeg;
             this.longitudeDeg = longitudeDeg;
-            this.altitudeM = altitudeM;
             this.isAfterSilence = isAfterSilence;
         }
     }
@@ -88,15 +86,6 @@ public final class Track {
         return snapshot;
     }
 
-    public void clear() {
-        spots.clear();
-        pointsOrigin = null;
-        newest = null;
-        firstPlace = null;
-        isAfterSilence = false;
-        version++;
-    }
-
     /** Takes the position of a frame, if it has a valid one; time only increases. */
     void update(Telemetry telemetry, Home known, long nowMs) {
         if (known != null && known != home) {
@@ -109,17 +98,13 @@ public final class Track {
                 || Math.abs(longitude) > 180) {
             return;
         }
-        Double altitude = telemetry.number("location.altitude");
-        if (altitude == null) {
-            altitude = telemetry.number("altitude");
-        }
         if (!telemetry.age.isStale("location", nowMs)) {
             isAfterSilence |= gaps.update(nowMs);
         }
         if (firstPlace == null) {
             firstPlace = new Home(latitude, longitude);
         }
-        newest = new Spot(latitude, longitude, altitude, isAfterSilence && !spots.isEmpty());
+        newest = new Spot(latitude, longitude, isAfterSilence && !spots.isEmpty());
         version++;
         if (spots.isEmpty() || distanceM(lastSpot(), newest) >= MIN_DISTANCE_M) {
             isAfterSilence = false;
@@ -139,7 +124,7 @@ public final class Track {
             hasGap |= spot.isAfterSilence;
             if (place % 2 == 0 || place == spots.size() - 1) {
                 kept.add(hasGap == spot.isAfterSilence ? spot : new Spot(spot.latitudeDeg,
-                        spot.longitudeDeg, spot.altitudeM, hasGap));
+                        spot.longitudeDeg, hasGap));
                 hasGap = false;
             }
         }
@@ -169,7 +154,7 @@ public final class Track {
     private static TrackPoint point(Home origin, Spot spot) {
         return new TrackPoint(Earth.northM(origin.latitudeDeg, spot.latitudeDeg),
                 Earth.eastM(origin.longitudeDeg, spot.longitudeDeg, origin.latitudeDeg),
-                spot.altitudeM, spot.isAfterSilence);
+                spot.isAfterSilence);
     }
 
     private static double distanceM(Spot a, Spot b) {
@@ -182,15 +167,12 @@ public final class Track {
         public final double northM;
         /** The metres east of the track's origin. */
         public final double eastM;
-        /** The altitude, m; null: not known. */
-        public final Double altitudeM;
         /** Whether a gap precedes it: no line leads to it. */
         public final boolean isAfterSilence;
 
-        TrackPoint(double northM, double eastM, Double altitudeM, boolean isAfterSilence) {
+        TrackPoint(double northM, double eastM, boolean isAfterSilence) {
             this.northM = northM;
             this.eastM = eastM;
-            this.altitudeM = altitudeM;
             this.isAfterSilence = isAfterSilence;
         }
     }

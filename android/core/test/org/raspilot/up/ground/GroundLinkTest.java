@@ -85,7 +85,7 @@ public final class GroundLinkTest {
         assertTrue(bench.ground.releaseControl());
         assertEquals("UP1 seat release\n", bench.peer().written());
         assertEquals(ControlStatus.LATER, bench.status.control);
-        bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.DISARM), null, bench.keeping());
         assertEquals("no_control", bench.answer().code);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=none");

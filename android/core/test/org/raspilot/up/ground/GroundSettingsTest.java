@@ -25,12 +25,6 @@ public final class GroundSettingsTest {
         refused("seat", () -> new GroundSettings("h", 1, "a", ProxyRole.AIR, false));
     }
 
-    @Test
-    public void theAddressIsWrittenAsPeopleDo() {
-        assertEquals("h:1", settings(" h ", 1, "a").address());
-        assertEquals("[::1]:1", settings("::1", 1, "a").address());
-    }
-
     private static GroundSettings settings(String host, int port, String aircraft) {
         return new GroundSettings(host, port, aircraft, ProxyRole.LISTEN, false);
     }

@@ -121,8 +121,7 @@ public final class LinkSecurityTest {
         line(frame("{}"));
         final String gains = command();
         assertTrue("a protected request has a beacon", gains.contains("\"beacon\": " + beacon));
-        bench.ground.onShown(beacon);
-        bench.ground.send(new BaseCommand(Commands.ARM), bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.ARM), beacon, bench.keeping());
         final String sent = command();
         assertTrue(sent, sent.startsWith("{\"name\": \"up.arm\"") && !sent.endsWith("\n"));
         final String id = (String) GroundBench.json(sent).get("id");
@@ -166,7 +165,7 @@ public final class LinkSecurityTest {
                 catalogue.form("up.arm"), Collections.emptyMap(), bench.status,
                 Telemetry.EMPTY, bench.loop.nowMs());
         assertEquals(DisabledReason.NO_SESSION, shown);
-        bench.ground.send(new BaseCommand(Commands.ARM), bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.ARM), null, bench.keeping());
         assertEquals("no_session", bench.answer().code);
         assertNull(written(BinaryLine.PROTECTED));
     }

@@ -75,9 +75,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
     @Override
     public void onTelemetry(Telemetry telemetry) {
-        if (telemetry.beacon != null) {
-            ground.onShown(telemetry.beacon);
-        }
+        // A handler of the Command prints it.
     }
 
     @Override
@@ -125,7 +123,8 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         if (!(name instanceof String) || !(data instanceof Map)) {
             throw new OptionException("send is a Command's name, data an object");
         }
-        ground.send(new BaseCommand((String) name, keyed(data)), answers);
+        ground.send(new BaseCommand((String) name, keyed(data)),
+                ground.telemetry().beacon, answers);
     }
 
     private void gains(Object wanted, Answers answers) throws OptionException {
