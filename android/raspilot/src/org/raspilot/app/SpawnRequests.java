@@ -15,15 +15,9 @@ import org.raspilot.up.net.RunnerAnswer;
  * the log, whichever screen is seen then. Lives with the process, on the main thread.
  */
 final class SpawnRequests {
-    /** Called when a request starts and ends. */
-    interface Watcher {
-        /** Called when {@link SpawnRequests#isAsking} has changed. */
-        void onSpawning();
-    }
-
     private final RaspilotApplication application;
     private final Messenger answers;
-    private Watcher watcher;
+    private Runnable watcher;
     private boolean isAsking;
 
     SpawnRequests(RaspilotApplication application) {
@@ -41,8 +35,8 @@ final class SpawnRequests {
         return isAsking;
     }
 
-    /** Sets the watcher, or null. */
-    void setWatcher(Watcher now) {
+    /** Sets what runs when {@link #isAsking} has changed, or null. */
+    void setWatcher(Runnable now) {
         watcher = now;
     }
 
@@ -93,7 +87,7 @@ final class SpawnRequests {
     private void setAsking(boolean now) {
         isAsking = now;
         if (watcher != null) {
-            watcher.onSpawning();
+            watcher.run();
         }
     }
 }

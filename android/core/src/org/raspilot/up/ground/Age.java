@@ -100,6 +100,12 @@ public final class Age {
         return age != null && age > (limit == null ? TelemetrySchema.SILENT_MS : limit);
     }
 
+    /** Returns for how long something has been so: whole seconds, as hundredths would only flicker. */
+    public static String agoText(long agoMs) {
+        final long wholeMs = Math.max(0, agoMs) / 1000 * 1000;
+        return wholeMs < 100000 ? wholeMs / 1000 + " s" : text(wholeMs);
+    }
+
     /**
      * Returns an age in at most six characters: {@code 0.03 s}, {@code 12.4 s}, {@code 3 min},
      * {@code 2 h}, {@code days}; null is {@code --}.

@@ -61,13 +61,17 @@ public final class Answer {
         return outcome == Outcome.ACK;
     }
 
+    /** Returns the reason, or its code where it has none; possibly an empty text. */
+    public String why() {
+        return reason.isEmpty() ? code : reason;
+    }
+
     /** Returns a sentence for the pilot, without a full stop. */
     public String sentence() {
         final String done = name + ": " + outcome.text();
         final String after = roundTripMs == null || !isAck() ? done
                 : String.format(Locale.ROOT, "%s after %d ms", done, roundTripMs);
-        final String why = reason.isEmpty() ? code : reason;
-        return why.isEmpty() ? after : after + ": " + why;
+        return why().isEmpty() ? after : after + ": " + why();
     }
 
     @Override

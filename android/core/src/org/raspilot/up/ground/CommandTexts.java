@@ -69,8 +69,7 @@ public final class CommandTexts {
 
     /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
-        final String why = answer.reason.isEmpty() ? answer.code : answer.reason;
         return words + ": " + answer.outcome.text()
-                + (answer.isAck() || why.isEmpty() ? "" : ": " + why);
+                + (answer.isAck() || answer.why().isEmpty() ? "" : ": " + answer.why());
     }
 }

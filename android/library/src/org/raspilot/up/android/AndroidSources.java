@@ -47,6 +47,14 @@ public final class AndroidSources {
                 new BatterySource(lasting, new Handler(looper), posting, texts));
     }
 
+    /** Returns the phone's orientation for a screen, whether or not it is sent; on the main thread. */
+    public static SensorSource<Rotation> rotation(Context context, SensorTexts texts,
+            ProblemListener problems) {
+        final Handler main = new Handler(Looper.getMainLooper());
+        return rotation(new SensorAccess(context.getApplicationContext(), Looper.getMainLooper()),
+                call -> main.post(call), texts, problems);
+    }
+
     /** Returns the best source of a phone; its own fusion includes north and its gyroscope. */
     static SensorSource<Rotation> rotation(SensorAccess access, Executor loop, SensorTexts texts,
             ProblemListener problems) {

@@ -14,8 +14,6 @@ import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
-import org.raspilot.up.ground.GroundStatus;
-import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetrySource;
 
 /**
@@ -171,15 +169,12 @@ public abstract class TelemetryService extends Service {
         void ask(GroundSide side, AnswerListener answers);
     }
 
-    /** Receives the data of the aircraft. Called on the main thread. */
+    /** Is told of newer data, for {@link Ground#snapshot}. Called on the main thread. */
     public interface GroundWatcher {
-        /** Takes the newest frame; older frames that were not delivered yet are skipped. */
-        void onTelemetry(Telemetry telemetry);
+        /** Called for the newest frame; older ones that were not delivered yet are skipped. */
+        void onTelemetry();
 
-        /** Takes the status, when it has changed. */
-        void onStatus(GroundStatus status);
-
-        /** Called when track, events, alarms or gains have changed. */
+        /** Called when status, track, events, alarms or gains have changed. */
         void onChanged();
     }
 }

@@ -6,7 +6,7 @@ import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.ground.CommandGate;
 
 /** What belongs together in the list of Commands. */
-enum CommandGroup {
+public enum CommandGroup {
     /** Flight and navigation. */
     FLIGHT,
     /** The flight controller's board. */
@@ -51,7 +51,7 @@ enum CommandGroup {
     }
 
     /** Returns whether each of the words occurs in one of the texts, ignoring case. */
-    static boolean matches(String words, String... texts) {
+    public static boolean matches(String words, String... texts) {
         for (String word : words.trim().toLowerCase(Locale.ROOT).split("\\s+")) {
             boolean isFound = false;
             for (String text : texts) {

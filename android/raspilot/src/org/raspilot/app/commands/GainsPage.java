@@ -23,7 +23,7 @@ import org.raspilot.up.ground.GainsService.GainsEntry;
 import org.raspilot.up.ground.GainsService;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
-final class GainsPage extends Page implements View.OnClickListener, GainsTable.ChangeListener {
+final class GainsPage extends Page implements View.OnClickListener {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
             Collections.singletonMap("request", true);
@@ -58,7 +58,7 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         discard = button(R.id.gains_discard);
         send = button(R.id.gains_send);
         updateActive();
-        table = new GainsTable(element, editor, this);
+        table = new GainsTable(element, editor, () -> update());
         update();
     }
 
@@ -78,11 +78,6 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         discard.setEnabled(editor.hasEdits());
         undo.setEnabled(isOffered && shown != null && shown.undo != null);
         TextViews.showOrHide(past, pastText());
-    }
-
-    @Override
-    public void onWritten() {
-        update();
     }
 
     @Override
@@ -143,9 +138,8 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         if (shown == null || shown.flying == null || shown.reportedMs == null) {
             return context.getString(R.string.gains_unknown);
         }
-        long agoMs = Math.max(0, desk.picture().nowMs - shown.reportedMs) / 1000 * 1000;
         return context.getString(R.string.gains_told,
-                agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs));
+                Age.agoText(desk.picture().nowMs - shown.reportedMs));
     }
 
     private String warning() {

@@ -26,21 +26,16 @@ final class GainsTable {
     private static final int[] CELLS = {R.id.gain_p, R.id.gain_i, R.id.gain_d};
     private static final int[] FLYING = {R.id.flying_p, R.id.flying_i, R.id.flying_d};
 
-    /** Called when a cell was edited. */
-    interface ChangeListener {
-        void onWritten();
-    }
-
     private final GainsEditor editor;
-    private final ChangeListener listener;
+    private final Runnable onWritten;
     private final InstrumentColors colors;
     private final List<Cell> cells = new ArrayList<>();
     private boolean isFilling;
 
     /** Creates the cells in the list that the page has for them. */
-    GainsTable(View page, GainsEditor editor, ChangeListener listener) {
+    GainsTable(View page, GainsEditor editor, Runnable onWritten) {
         this.editor = editor;
-        this.listener = listener;
+        this.onWritten = onWritten;
         colors = InstrumentColors.of(page.getContext());
         ViewGroup list = (ViewGroup) page.findViewById(R.id.gains_table);
         LayoutInflater inflater = LayoutInflater.from(page.getContext());
@@ -120,7 +115,7 @@ final class GainsTable {
         public void afterTextChanged(Editable text) {
             if (!isFilling) {
                 editor.write(key, text.toString());
-                listener.onWritten();
+                onWritten.run();
             }
         }
     }

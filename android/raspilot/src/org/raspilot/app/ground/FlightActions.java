@@ -23,7 +23,6 @@ import org.raspilot.up.commands.CommandCatalogue;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.CommandGate;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.Earth;
@@ -151,7 +150,7 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
     }
 
     private void select(String name) {
-        send(new BaseCommand(Commands.FLIGHT_MODE, Collections.singletonMap("mode", name)), null);
+        send(Commands.flightMode(name), null);
     }
 
     /** Sends a Command; {@code then} runs when the aircraft carried it out. */
@@ -160,8 +159,8 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
             return;
         }
         ground.send(command, frame.shownBeacon(), answer -> {
-            if (answer.outcome != Answer.Outcome.ACK) {
-                say(answer.reason.isEmpty() ? answer.code : answer.reason);
+            if (!answer.isAck()) {
+                say(answer.why());
             } else if (then != null) {
                 then.run();
             }

@@ -11,8 +11,8 @@ import android.widget.ListView;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import java.util.Locale;
 import org.raspilot.app.R;
+import org.raspilot.app.commands.CommandGroup;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Telemetry;
@@ -70,14 +70,8 @@ final class ValuesPanel extends BaseAdapter implements TextListener {
     /** Returns the rows whose path contains each of the words, ignoring case. */
     private static List<TelemetryRow> chosen(List<TelemetryRow> all, String words) {
         List<TelemetryRow> found = new ArrayList<>();
-        String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");
         for (TelemetryRow row : all) {
-            String path = row.path.toLowerCase(Locale.ROOT);
-            boolean isChosen = true;
-            for (String word : each) {
-                isChosen &= path.contains(word);
-            }
-            if (isChosen) {
+            if (CommandGroup.matches(words, row.path)) {
                 found.add(row);
             }
         }
