@@ -53,22 +53,18 @@ public final class Up {
         instance = up;
     }
 
-    /** Returns the registry for an application's own Commands. */
     public CommandRegistry commandRegistry() {
         return registry;
     }
 
-    /** Returns the registry for an application's handlers. */
     public CommandExecutor commandExecutor() {
         return executor;
     }
 
-    /** Returns the receiver for the links' messages. */
     public CommandReceiver commandReceiver() {
         return receiver;
     }
 
-    /** Returns the registry for an application's providers. */
     public ProvidersController providersController() {
         return providers;
     }

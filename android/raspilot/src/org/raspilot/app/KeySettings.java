@@ -20,9 +20,7 @@ import org.raspilot.up.tls.TlsIdentity;
  */
 final class KeySettings implements Preference.OnPreferenceChangeListener,
         Preference.OnPreferenceClickListener {
-    /** The request code of the scanner. */
     static final int SCAN = 1;
-    /** The request code of the choice of a file. */
     static final int FILE = 2;
 
     // The scanner applications' common interface, by ZXing.
@@ -59,7 +57,6 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         return false;
     }
 
-    /** Asks whether to forget the key that was clicked. */
     @Override
     public boolean onPreferenceClick(Preference clicked) {
         String aircraft = String.valueOf(clicked.getTitle());

@@ -12,7 +12,6 @@ enum Screen {
     SETTINGS(R.string.screen_settings, R.id.pane_first, () -> new SettingsFragment()),
     LOG(R.string.screen_log, R.id.pane_first, () -> new LogFragment());
 
-    /** Creates the fragment. */
     interface Maker {
         Fragment make();
     }

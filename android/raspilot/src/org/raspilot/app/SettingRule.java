@@ -26,7 +26,6 @@ enum SettingRule {
     private static final Pattern WHOLES = Pattern.compile("[0-9]{1,9}");
     private static final Pattern NUMBERS = Pattern.compile("[0-9]{1,5}([.,][0-9]{1,6})?");
 
-    /** The resource of the sentence that states the rule. */
     final int sentence;
     private final Check check;
 

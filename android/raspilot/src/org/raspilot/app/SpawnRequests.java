@@ -30,7 +30,6 @@ final class SpawnRequests {
         });
     }
 
-    /** Returns whether a request waits for its answer. */
     boolean isAsking() {
         return isAsking;
     }

@@ -24,10 +24,8 @@ public final class Airborne {
     private boolean isRunning;
 
     /**
-     * Stores its dependencies; nothing starts before {@link #start}.
-     *
-     * @param random a seeded source: it varies the retry waits and makes the identity by which the
-     *     Raspberry Pi distinguishes this phone from others
+     * Creates a phone that is not started; {@code random}, seeded, varies the retry waits and makes
+     * the identity by which the Raspberry Pi distinguishes this phone from others.
      */
     public Airborne(Loop loop, AirborneSettings settings, Sensors sensors, Speaker speaker,
             AirborneListener listener, Random random) {
@@ -44,7 +42,6 @@ public final class Airborne {
         providers().panic().addListener(panic -> listener.onPanic(panic.delayMs()));
     }
 
-    /** Starts to read, to connect and to send. */
     public void start() {
         if (!isRunning) {
             isRunning = true;

@@ -76,12 +76,10 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         }
     }
 
-    /** Notes an answer to one of our ids. */
     void onAnswer(String id) {
         watch.onAnswer(id);
     }
 
-    /** Returns the state of the link for Commands. */
     UpSocketStatus status() {
         return socket.status();
     }

@@ -21,9 +21,7 @@ public final class AirborneSettings {
     public final AirborneMode mode;
     /** The Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
     public final String host;
-    /** The Raspberry Pi's port for General Messages. */
     public final int generalPort;
-    /** The Raspberry Pi's port for orientation. */
     public final int orientationPort;
     public final int discoveryPort;
     /** Discovery's targets; empty: 255.255.255.255 and every interface's own. */
@@ -53,7 +51,6 @@ public final class AirborneSettings {
     public final double referencePressureHPa;
     /** Degrees from magnetic to true north, east positive. */
     public final double declinationDeg;
-    /** The phone's mounting in the aeroplane. */
     public final Mounting mounting;
 
     private AirborneSettings(Builder builder) {
@@ -204,7 +201,6 @@ public final class AirborneSettings {
 
     /** How orientation leaves the phone. */
     public enum OrientationTransport {
-        /** Not at all. */
         OFF,
         /** Frames back to back on a connection. */
         TCP,

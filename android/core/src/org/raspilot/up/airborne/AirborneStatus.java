@@ -10,7 +10,6 @@ import org.raspilot.up.providers.ProviderStatus;
 
 /** What the airborne screen shows: a snapshot that never changes, for any thread. */
 public final class AirborneStatus {
-    /** Whether the link for Commands is connected. */
     public final boolean isConnected;
     /** The state of the link in one sentence without a full stop. */
     public final String linkText;

@@ -33,7 +33,6 @@ public class BaseCommand {
                 : message.with(name, message.id, message.beacon));
     }
 
-    /** Returns the name on the wire. */
     public final String name() {
         return message.name;
     }

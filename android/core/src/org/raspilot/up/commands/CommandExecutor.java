@@ -44,7 +44,6 @@ public final class CommandExecutor {
         handlers.put(registry.primaryName(name), now);
     }
 
-    /** Returns whether a Command has a subscriber. */
     public boolean hasHandlers(String name) {
         return !handlersOf(name).isEmpty();
     }
@@ -107,14 +106,8 @@ public final class CommandExecutor {
         void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault);
     }
 
-    /** Receives the outcome of one Command on the bus. */
     interface CommandOutcome {
-        /**
-         * Called when the handlers have finished, on the loop thread.
-         *
-         * @param handlers the number of handlers
-         * @param fault the first exception that a handler threw, or null
-         */
+        /** Takes the number of handlers, and the first exception that one threw, or null. */
         void onDone(int handlers, Throwable fault);
     }
 }

@@ -25,7 +25,6 @@ public final class CommandField {
     public final String text;
     private final FieldRule rule;
 
-    /** Reads a field out of a catalogue. */
     CommandField(CatalogueEntry entry) throws MalformedException {
         name = entry.text("name");
         type = entry.type("type");

@@ -19,7 +19,6 @@ public final class CommandForm {
     private final List<SpecialRole> specialRoles = new ArrayList<>();
     private final Map<String, CommandField> fields = new LinkedHashMap<>();
 
-    /** Reads a form out of a catalogue. */
     CommandForm(CatalogueEntry entry) throws MalformedException {
         name = entry.text("name");
         role = entry.text("role");
@@ -103,7 +102,6 @@ public final class CommandForm {
         return CommandRegistry.builtin().read(new GeneralMessage(name, parse(inputs)));
     }
 
-    /** The role that one value of a field needs. */
     private static final class SpecialRole {
         final String field;
         final Object value;

@@ -45,7 +45,6 @@ public final class CommandReceiver {
         receive(message, answers);
     }
 
-    /** Takes one message of a link. */
     public void receive(final GeneralMessage message, final AnswerSink answers) {
         addOne("received");
         if (isRepeated(message, answers)) {

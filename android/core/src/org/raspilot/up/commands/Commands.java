@@ -38,7 +38,6 @@ public final class Commands {
     private Commands() {
     }
 
-    /** Registers all of them. */
     static void register(CommandRegistry registry) {
         registry.register(ACK, rule(fields -> fields.text("id", GeneralMessage.MAX_ID_LENGTH)));
         registry.register(ALTITUDE, rule(fields -> {
@@ -113,7 +112,6 @@ public final class Commands {
         return of(FLIGHT_MODE, "mode", mode);
     }
 
-    /** Creates the request for the active gains. */
     public static BaseCommand pidsRequest() {
         return of(PIDS, "request", true);
     }
@@ -143,7 +141,6 @@ public final class Commands {
         return BUILTIN.read(new GeneralMessage(name, data));
     }
 
-    /** What validates the fields of a Command. */
     private interface Rule {
         void check(CommandFields fields);
     }

@@ -38,7 +38,6 @@ public enum NackCode {
     // schema end
     ;
 
-    /** Returns the word on the wire. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }

@@ -56,7 +56,6 @@ public final class Answer {
         return new Answer(Outcome.REFUSED, name, code, reason, null, null);
     }
 
-    /** Returns whether the aircraft executed it. */
     public boolean isAck() {
         return outcome == Outcome.ACK;
     }

@@ -25,10 +25,7 @@ public final class CommandGate {
     }
 
     /**
-     * Returns why a Command is not offered.
-     *
-     * @param data the known fields
-     * @param status null: the service is not connected yet
+     * Returns why a Command with the known fields is not offered; {@code status} null: no service.
      */
     public static DisabledReason objection(CommandForm form, Map<String, ?> data,
             GroundStatus status, Telemetry telemetry, long nowMs) {
@@ -53,7 +50,6 @@ public final class CommandGate {
                 || ROLES.contains(needed) && ROLES.indexOf(role) >= ROLES.indexOf(needed);
     }
 
-    /** Returns the objection from the aircraft's telemetry, or from its silence. */
     static DisabledReason ofAircraft(String name, Boolean tuneInFlight, Telemetry telemetry,
             long nowMs) {
         if (telemetry.isSilent(nowMs)) {
@@ -109,9 +105,7 @@ public final class CommandGate {
 
     /** Why a Command is not offered now. */
     public enum DisabledReason {
-        /** It is offered. */
         NONE,
-        /** No link to send it over. */
         NO_LINK,
         /** The proxy does not have the aircraft. */
         NO_AIRCRAFT,
@@ -129,9 +123,7 @@ public final class CommandGate {
         SILENT,
         /** Gains are refused in flight. */
         ARMED,
-        /** The motor is armed already. */
         ARMED_ALREADY,
-        /** The motor is disarmed already. */
         DISARMED_ALREADY
     }
 }

@@ -23,9 +23,7 @@ final class CommandService {
     }
 
     /**
-     * Sends a Command once.
-     *
-     * @param seen the beacon of the frame that the pilot has seen; null: none
+     * Sends a Command once; {@code seen}: the beacon of the frame that the pilot has seen, or null.
      */
     void send(BaseCommand command, Long seen, AnswerListener listener) {
         final boolean isProtectedRequest = link.facts().isKeyed()
@@ -56,11 +54,7 @@ final class CommandService {
         }
     }
 
-    /**
-     * Returns why a Command is not sent now; null: it is.
-     *
-     * @param shown the beacon of the frame that the pilot has seen; null: none
-     */
+    /** Returns why a Command is not sent now; null: it is. */
     private Answer refusal(BaseCommand command, Long shown) {
         final Answer refused = ofLink(command);
         if (refused != null) {

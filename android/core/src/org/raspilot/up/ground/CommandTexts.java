@@ -67,7 +67,6 @@ public final class CommandTexts {
         return text.toString();
     }
 
-    /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
         return words + ": " + answer.outcome.text()
                 + (answer.isAck() || answer.why().isEmpty() ? "" : ": " + answer.why());

@@ -14,7 +14,6 @@ public final class EventLog {
 
     /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The events from the oldest to the newest, unmodifiable. */
         public final List<Event> events;

@@ -10,7 +10,6 @@ import org.raspilot.up.commands.GainSet;
 
 /** Names one gain: loop, axis and term. Immutable. */
 public final class GainKey {
-    /** Names on the wire. */
     private static final String[] LOOPS = {"ratePIDs", "stabPIDs"};
     private static final String[] AXES = {"ailerons", "elevator", "rudder"};
     private static final String[] TERMS = {"p", "i", "d"};
@@ -35,7 +34,6 @@ public final class GainKey {
         return LOOPS[loop];
     }
 
-    /** Returns the axis' name on the wire. */
     public String axis() {
         return AXES[axis];
     }

@@ -27,7 +27,6 @@ public final class GainsService {
 
     /** A snapshot of the gains. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The last gains that the aircraft reported; null: none so far. */
         public final GainSet flying;
@@ -69,7 +68,6 @@ public final class GainsService {
         this.sender = sender;
     }
 
-    /** Returns a number that rises with each change. */
     public long version() {
         return version;
     }
@@ -89,9 +87,8 @@ public final class GainsService {
     }
 
     /**
-     * Sets the gains; a set that is not whole or out of 0 to 50 is refused here.
-     *
-     * @param shownBeacon the beacon of the frame that the screen shows; null: none
+     * Sets the gains, with the beacon of the frame on the screen; a set that is not whole or out of
+     * 0 to 50 is refused here.
      */
     public void set(GainSet gains, Long shownBeacon, AnswerListener listener) {
         transmit(gains, shownBeacon, listener, false);
@@ -258,7 +255,6 @@ public final class GainsService {
             this.answer = answer;
         }
 
-        /** Returns the gains in which the two differ. */
         public List<GainChange> changes() {
             return GainsService.difference(before, after);
         }

@@ -354,7 +354,6 @@ final class GroundLink implements UpSocketListener {
         /** Called when the link is open: messages can be sent. */
         void onOpened();
 
-        /** Called when an open link is lost. */
         void onLost(String reason);
 
         /** Called when a part of the link's state has changed. */

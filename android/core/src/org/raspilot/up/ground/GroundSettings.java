@@ -8,7 +8,6 @@ import org.raspilot.up.wire.ProxyRole;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {
-    /** The ground port of a Ground Station Proxy. */
     public static final int PROXY_PORT = 3004;
 
     /** The name or address of the other side. */

@@ -102,7 +102,6 @@ public final class GroundSide implements TelemetrySource {
         return stream.newest();
     }
 
-    /** Returns the track of the aircraft. */
     public Track track() {
         return track;
     }

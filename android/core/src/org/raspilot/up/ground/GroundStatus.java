@@ -37,7 +37,6 @@ public final class GroundStatus {
     public final String keyFault;
     /** The name of this device's key for the aircraft; empty: it has none. */
     public final String keyName;
-    /** Whether the connection to the other side is by TLS. */
     public final boolean isTls;
     /** Whether gains may be set in flight, or null if unknown. */
     public final Boolean tuneInFlight;
@@ -76,7 +75,6 @@ public final class GroundStatus {
         unprotected = facts.unprotected;
     }
 
-    /** Returns whether messages can be sent. */
     public boolean isOpen() {
         return link == LinkState.OPEN;
     }
@@ -154,11 +152,9 @@ public final class GroundStatus {
 
     /** How far the connection to the other side is. */
     public enum LinkState {
-        /** Not started, or stopped. */
         STOPPED,
         /** In progress: connecting, or waiting for the answer to the hello. */
         CONNECTING,
-        /** Messages can go. */
         OPEN,
         /** Lost or refused: it is tried again after a little wait. */
         WAITING

@@ -35,7 +35,6 @@ final class LinkSecurity {
     private long sentMs;
 
     interface Owner {
-        /** Sends a line. */
         void send(byte[] line);
 
         /** Called after an answer: the aircraft's clock, read between two times here, ms. */
@@ -50,7 +49,6 @@ final class LinkSecurity {
         facts.keyName = pairing == null ? "" : pairing.name;
     }
 
-    /** Begins on an open connection. */
     void start() {
         if (session != null) {
             isStarted = true;

@@ -19,7 +19,6 @@ import org.raspilot.up.wire.SafeText;
 final class PendingCommands {
     /** Timeout of an answer, ms; a later answer is ignored. */
     static final long LIMIT_MS = 3000;
-    /** Maximum number of Commands that wait for an answer. */
     static final int MAX_WAITING = 32;
 
     private static final int MAX_REASON_LENGTH = 500;
@@ -64,7 +63,6 @@ final class PendingCommands {
         this.random = random;
     }
 
-    /** Returns how many Commands wait for their answer. */
     int waiting() {
         return sent.size();
     }

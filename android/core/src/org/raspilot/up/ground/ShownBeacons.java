@@ -60,7 +60,6 @@ final class ShownBeacons {
         return hasFrames && !hasBeacons;
     }
 
-    /** Returns whether the aircraft would accept that beacon as fresh. */
     boolean isFresh(Long beacon, long nowMs) {
         final Heard found = find(beacon);
         return found != null && nowMs - found.sentMs <= limitMs;

@@ -41,12 +41,8 @@ public final class Telemetry {
     }
 
     /**
-     * Creates a frame.
-     *
-     * @param data the Command's fields as JSON values; copied
-     * @param beacon the aircraft's number of the frame, or null
-     * @param receivedMs the loop's time of reception
-     * @param wayMs the known part of the transit time
+     * Creates a frame of JSON values, which are copied; {@code wayMs}: the known part of the
+     * transit time.
      */
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = ImmutableCopy.map(data);

@@ -17,7 +17,6 @@ public final class Track {
 
     /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The position of north 0, east 0; null before the first position. */
         public final Home origin;
@@ -68,7 +67,6 @@ public final class Track {
     Track() {
     }
 
-    /** Returns a number that rises with each change. */
     public long version() {
         return version;
     }
@@ -163,9 +161,7 @@ public final class Track {
 
     /** One place of the track. Immutable. */
     public static final class TrackPoint {
-        /** The metres north of the track's origin. */
         public final double northM;
-        /** The metres east of the track's origin. */
         public final double eastM;
         /** Whether a gap precedes it: no line leads to it. */
         public final boolean isAfterSilence;

@@ -37,23 +37,12 @@ public final class SelectorLoop implements Loop, Network {
     private volatile boolean isStopped;
     private final AtomicLong rounds = new AtomicLong();
 
-    /**
-     * Creates a loop that is not started yet.
-     *
-     * @param name of its thread
-     * @param faults receives exceptions of calls on the loop
-     */
+    /** Creates a loop on System.nanoTime(), which stops while a device sleeps. */
     public SelectorLoop(String name, FaultListener faults) {
         this(name, faults, () -> System.nanoTime());
     }
 
-    /**
-     * Creates a loop that is not started yet.
-     *
-     * @param name of its thread
-     * @param faults receives exceptions of calls on the loop
-     * @param clock of the loop; on a sleeping device System.nanoTime() stops
-     */
+    /** Creates a loop that is not started; exceptions of calls on it go to {@code faults}. */
     public SelectorLoop(String name, FaultListener faults, Clock clock) {
         this(name, faults, clock, new SocketSelector(), new SystemResolver());
     }

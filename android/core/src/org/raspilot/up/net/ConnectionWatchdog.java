@@ -75,7 +75,6 @@ final class ConnectionWatchdog {
             }
         }
 
-        /** Stops; it may be started again. */
         void stop() {
             if (timer != null) {
                 timer.cancel();

@@ -19,11 +19,8 @@ public final class OrientationSender {
     private boolean isStarted;
 
     /**
-     * Creates a sender that is not started.
-     *
-     * @param known the place of the General Message link; frames go to its orientation port
-     * @param isUdp one frame a datagram; otherwise frames on a connection that is kept
-     * @param random seeded: the waits between attempts vary by it
+     * Creates a sender to the orientation port of {@code known}: by datagrams or on a connection
+     * that is kept, whose retry waits vary by {@code random}.
      */
     public OrientationSender(Loop loop, LastEndpoint known, boolean isUdp, Random random) {
         this.loop = loop;

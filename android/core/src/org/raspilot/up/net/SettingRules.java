@@ -12,7 +12,6 @@ public final class SettingRules {
     private SettingRules() {
     }
 
-    /** Returns whether a text may be a name or an address. */
     public static boolean isHost(String text) {
         return text.length() <= MAX_HOST_LENGTH && HOST.matcher(text).matches();
     }
@@ -23,7 +22,6 @@ public final class SettingRules {
         }
     }
 
-    /** Checks a name or an address. */
     public static void host(String setting, String host) {
         present(setting, host);
         if (!isHost(host)) {
@@ -51,7 +49,6 @@ public final class SettingRules {
         }
     }
 
-    /** Checks a whole number. */
     public static void range(String setting, int value, int least, int most) {
         if (value < least || value > most) {
             throw new InvalidSettingException(setting,

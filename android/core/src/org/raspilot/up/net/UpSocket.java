@@ -32,11 +32,7 @@ public final class UpSocket {
     private Cancellable retry;
     private long connects;
 
-    /**
-     * Creates a socket that is not started.
-     *
-     * @param random a seeded source: the waits vary by it
-     */
+    /** Creates a socket that is not started; {@code random}, seeded, varies the retry waits. */
     public UpSocket(Loop loop, EndpointDiscovery discovery, UpSocketListener listener,
             UpSocketSettings settings, Random random) {
         this.loop = loop;
@@ -127,7 +123,6 @@ public final class UpSocket {
         return flushIf(isConnected() && queue.replace(key, bytes));
     }
 
-    /** Returns whether a connection is there. */
     public boolean isConnected() {
         return status.isConnected();
     }
@@ -136,7 +131,6 @@ public final class UpSocket {
         return status;
     }
 
-    /** Returns how often it was connected. */
     public long connects() {
         return connects;
     }

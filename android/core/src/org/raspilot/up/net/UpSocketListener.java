@@ -16,8 +16,6 @@ public interface UpSocketListener {
 
     /**
      * Called when an open connection is lost; a new attempt follows unless the socket was stopped.
-     *
-     * @param reason a sentence without a full stop
      */
     default void onLost(UpSocket socket, String reason) {
     }

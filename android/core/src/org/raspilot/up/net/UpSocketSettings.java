@@ -4,7 +4,6 @@ import org.raspilot.up.tls.TlsIdentity;
 
 /** How an {@link UpSocket} behaves; immutable, each {@code with} returns another. Times in ms. */
 public final class UpSocketSettings {
-    /** Most bytes that wait in order. */
     public static final int MAX_QUEUE_BYTES = 65536;
 
     /** Whether raw frames go to the orientation port, instead of lines to the other. */

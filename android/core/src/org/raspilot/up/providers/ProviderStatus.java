@@ -25,7 +25,6 @@ public final class ProviderStatus {
         this.problem = problem;
     }
 
-    /** What a provider does now. */
     public enum ProviderState {
         /** This device has no such sensor. */
         ABSENT,
@@ -33,7 +32,6 @@ public final class ProviderStatus {
         STOPPED,
         /** No reading yet, or no link to send it on. */
         WAITING,
-        /** Its readings leave. */
         SENDING,
         /** The sensor is present and has been silent for longer than allowed. */
         SILENT

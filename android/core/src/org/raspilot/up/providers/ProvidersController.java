@@ -20,12 +20,10 @@ public final class ProvidersController {
         this.loop = loop;
     }
 
-    /** Returns the Panic that all providers follow. */
     public Panic panic() {
         return panic;
     }
 
-    /** Sets the listener of the providers' problems. */
     public void setListener(ProvidersListener listener) {
         this.listener = listener;
     }

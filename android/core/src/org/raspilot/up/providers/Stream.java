@@ -112,7 +112,6 @@ final class Stream implements Panic.Listener {
                 : wantedMs;
     }
 
-    /** Returns the earliest time that Panic permits. */
     private double earliestMs() {
         return panic.isOn() ? lastMs + panic.delayMs() : 0;
     }

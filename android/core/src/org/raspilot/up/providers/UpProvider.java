@@ -29,7 +29,6 @@ public abstract class UpProvider {
         this.ratePolicy = ratePolicy;
     }
 
-    /** Returns whether this device has the sensor. */
     protected abstract boolean isPresent();
 
     /** Returns the sensor's own name; called at each start, together with isPresent. */
@@ -165,7 +164,6 @@ public abstract class UpProvider {
         }
     }
 
-    /** Returns whether there is a link now. */
     final boolean isOpen() {
         return isOpen(sink);
     }

@@ -31,7 +31,6 @@ public final class HelloAnswer {
         this.reason = reason;
     }
 
-    /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
     }

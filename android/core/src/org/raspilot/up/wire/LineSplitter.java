@@ -19,7 +19,6 @@ public final class LineSplitter {
     private int heldLength;
     private boolean isSkipping;
 
-    /** Creates a splitter for lines of General Messages. */
     public LineSplitter() {
         this(MAX_LINE_BYTES);
     }

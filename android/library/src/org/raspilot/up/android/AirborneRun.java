@@ -117,7 +117,6 @@ final class AirborneRun {
         loop.post(() -> airborne.setMounting(mounting));
     }
 
-    /** Sets the altitude at the phone's position to zero. */
     void zeroAltitudeHere() {
         loop.post(() -> {
             try {

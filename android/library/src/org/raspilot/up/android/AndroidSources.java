@@ -24,11 +24,8 @@ public final class AndroidSources {
     }
 
     /**
-     * Finds the available sensors.
-     *
-     * @param context of the application or of anything in it
-     * @param looper whose thread the system calls on
-     * @param fixes receives each fix in addition to its provider
+     * Finds the available sensors; the system calls on the looper's thread, {@code fixes} receives
+     * each fix in addition to its provider.
      */
     public static Sensors find(Context context, Looper looper, Loop loop, SensorTexts texts,
             ProblemListener problems, FixListener fixes) {

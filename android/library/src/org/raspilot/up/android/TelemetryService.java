@@ -41,11 +41,7 @@ public abstract class TelemetryService extends Service {
         return false;
     }
 
-    /**
-     * Registers the application's own handlers; on the loop.
-     *
-     * @param telemetry for a BaseTelemetryHandler
-     */
+    /** Registers the application's own handlers, as a BaseTelemetryHandler; on the loop. */
     protected void onUp(Up up, TelemetrySource telemetry) {
     }
 
@@ -85,7 +81,6 @@ public abstract class TelemetryService extends Service {
 
     /** What a screen reaches of the service that it is bound to. On the main thread. */
     public final class Ground extends Binder {
-        /** Adds a watcher, which receives all further changes. */
         public void add(GroundWatcher watcher) {
             view.add(watcher);
         }

@@ -7,18 +7,12 @@ import org.raspilot.up.ground.CommandGate;
 
 /** What belongs together in the list of Commands. */
 public enum CommandGroup {
-    /** Flight and navigation. */
     FLIGHT,
-    /** The flight controller's board. */
     BOARD,
-    /** Messages and log entries. */
     DATA,
-    /** The airborne phone. */
     PHONE,
-    /** Commands of unknown modules. */
     OTHER;
 
-    /** Returns the group of a Command by its name. */
     static CommandGroup of(String name) {
         if (name.startsWith("up.telemetry.") || name.startsWith("black_box.")) {
             return DATA;

@@ -10,7 +10,6 @@ import org.raspilot.up.ground.Answer;
 final class CommandHistory {
     static final int MAX_ENTRIES = 50;
 
-    /** One Command that was sent. */
     static final class Entry {
         final String words;
         /** When, by a monotonic clock, ms. */

@@ -134,7 +134,6 @@ final class CommandsScreen
         list.search(text.toString());
     }
 
-    /** Returns the source of views and texts. */
     Context context() {
         return activity;
     }
@@ -172,7 +171,6 @@ final class CommandsScreen
         }
     }
 
-    /** Requests the active gains from the aircraft. */
     void requestGains() {
         String words = activity.getString(R.string.gains_ask_words);
         if (isThere(words)) {

@@ -82,7 +82,6 @@ public final class CommandsState extends Fragment {
         return history;
     }
 
-    /** Returns the gains that are being written. */
     GainsEditor gains() {
         return gains;
     }
@@ -97,12 +96,10 @@ public final class CommandsState extends Fragment {
         open = name;
     }
 
-    /** Returns the words of the search. */
     String search() {
         return search;
     }
 
-    /** Sets the words of the search. */
     void setSearch(String words) {
         search = words;
     }
@@ -112,11 +109,7 @@ public final class CommandsState extends Fragment {
         listener = newListener;
     }
 
-    /**
-     * Adds a sent Command and returns the listener for its answer.
-     *
-     * @param words the request in words
-     */
+    /** Adds a sent Command, in words, and returns the listener for its answer. */
     AnswerListener sent(String words) {
         final CommandHistory.Entry entry = history.sent(words, SystemClock.elapsedRealtime());
         notifyListener();

@@ -23,7 +23,6 @@ abstract class FieldInput {
     private static final int MAX_LENGTH = 4096;
     private static final String DIGITS = "0123456789.,-";
 
-    /** Returns the input that a field needs. */
     static FieldInput of(Context context, CommandField field, Runnable onChange) {
         List<Object> choices = field.choices;
         if (choices == null && field.type == FieldType.BOOLEAN) {

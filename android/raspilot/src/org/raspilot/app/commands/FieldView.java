@@ -60,7 +60,6 @@ final class FieldView {
         return sentence.isEmpty();
     }
 
-    /** Brings the reader to this field. */
     void focus() {
         input.view().requestFocus();
     }

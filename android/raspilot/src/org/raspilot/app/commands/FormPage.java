@@ -34,7 +34,6 @@ final class FormPage extends Page implements View.OnClickListener {
     private final TextView problem;
     private final Button send;
 
-    /** Creates the form and restores its typed text. */
     FormPage(CommandForm form, CommandsScreen desk) {
         super(desk, R.layout.page_form);
         this.form = form;

@@ -42,7 +42,6 @@ final class GainsPage extends Page implements View.OnClickListener {
     private final Button send;
     private GainsService.Snapshot shown;
 
-    /** Creates the page and restores its edits. */
     GainsPage(CommandForm form, CommandsScreen desk) {
         super(desk, R.layout.page_gains);
         this.form = form;

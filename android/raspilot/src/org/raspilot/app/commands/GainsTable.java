@@ -32,7 +32,6 @@ final class GainsTable {
     private final List<Cell> cells = new ArrayList<>();
     private boolean isFilling;
 
-    /** Creates the cells in the list that the page has for them. */
     GainsTable(View page, GainsEditor editor, Runnable onWritten) {
         this.editor = editor;
         this.onWritten = onWritten;

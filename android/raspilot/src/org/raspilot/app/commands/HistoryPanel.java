@@ -28,7 +28,6 @@ final class HistoryPanel implements View.OnClickListener {
         newest.setOnClickListener(this);
     }
 
-    /** Returns whether the whole history is open. */
     boolean isOpen() {
         return box.getVisibility() == View.VISIBLE;
     }

@@ -17,11 +17,8 @@ final class AlarmBell {
     static final long WARNING_EACH_MS = 10000;
 
     enum Ring {
-        /** Nothing. */
         NONE,
-        /** A warning. */
         WARNING,
-        /** An alarm. */
         ALARM
     }
 
@@ -53,12 +50,10 @@ final class AlarmBell {
         silenced.addAll(Arrays.asList(words));
     }
 
-    /** Returns whether an audible alarm is active. */
     boolean isRinging() {
         return worst() != Ring.NONE;
     }
 
-    /** Returns the sound to play at this moment. */
     Ring ringAt(long nowMs) {
         Ring worst = worst();
         if (worst == Ring.NONE) {

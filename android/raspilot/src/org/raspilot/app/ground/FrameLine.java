@@ -20,7 +20,6 @@ public final class FrameLine implements FrameText.DrawnListener {
     private final InstrumentColors colors;
     private Long shownBeacon;
 
-    /** Takes the view that shows it. */
     public FrameLine(FrameText view) {
         this.view = view;
         colors = InstrumentColors.of(view.getContext());

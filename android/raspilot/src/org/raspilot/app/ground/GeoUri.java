@@ -8,11 +8,7 @@ final class GeoUri {
     }
 
     /**
-     * Returns {@code geo:47.1234567,8.1234567?q=47.1234567,8.1234567(label)}.
-     *
-     * @param latitudeDeg -90 to 90 degrees
-     * @param longitudeDeg -180 to 180 degrees
-     * @param label the text at the pin, already encoded as by Uri.encode
+     * Returns {@code geo:47.1234567,8.1234567?q=47.1234567,8.1234567(label)}; the label is encoded.
      */
     static String of(double latitudeDeg, double longitudeDeg, String label) {
         // Not the user's language: a decimal comma would be another place.

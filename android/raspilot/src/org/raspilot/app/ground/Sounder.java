@@ -23,7 +23,6 @@ final class Sounder {
         this.context = context.getApplicationContext();
     }
 
-    /** Plays the sound and vibration of a ring. */
     void ring(AlarmBell.Ring ring) {
         if (ring == AlarmBell.Ring.NONE) {
             return;

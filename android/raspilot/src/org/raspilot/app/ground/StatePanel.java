@@ -53,7 +53,6 @@ final class StatePanel {
     private boolean isPhoneLow;
     private long batteryLookedMs;
 
-    /** Makes its rows in the list that a layout has for them. */
     StatePanel(View root) {
         context = root.getContext().getApplicationContext();
         words = root.getResources();

@@ -14,11 +14,7 @@ public final class TapeGeometry {
     private long middle;
     private float shift;
 
-    /**
-     * Creates a scale.
-     *
-     * @param step distance between two marks, in the unit of the value; above 0
-     */
+    /** Takes the distance between two marks, in the unit of the value; above 0. */
     public TapeGeometry(float step) {
         if (!(step > 0)) {
             throw new IllegalArgumentException("a step is greater than 0, not " + step);
@@ -26,12 +22,7 @@ public final class TapeGeometry {
         this.step = step;
     }
 
-    /**
-     * Takes the length of the scale.
-     *
-     * @param length pixels
-     * @param newPixelsPerStep pixels between two marks, at least 1
-     */
+    /** Takes the length of the scale and the distance between two marks, pixels. */
     public void resize(float length, float newPixelsPerStep) {
         pixelsPerStep = Math.max(1, newPixelsPerStep);
         int half = (int) Math.ceil(length / 2 / pixelsPerStep) + 1;

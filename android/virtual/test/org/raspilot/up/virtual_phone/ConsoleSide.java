@@ -172,7 +172,6 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         return value == null ? null : Long.valueOf(value);
     }
 
-    /** Prints an answer with the tag of its request. */
     private final class Answers implements AnswerListener {
         private final Object tag;
 

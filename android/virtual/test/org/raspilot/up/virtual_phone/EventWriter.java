@@ -26,14 +26,12 @@ final class EventWriter {
         return fields;
     }
 
-    /** Returns an event with one field. */
     static Map<String, Object> event(String name, String field, Object value) {
         Map<String, Object> fields = event(name);
         fields.put(field, value);
         return fields;
     }
 
-    /** Prints it immediately. */
     synchronized void write(Map<String, Object> fields) {
         try {
             out.write(Json.write(fields).getBytes(ASCII));
@@ -51,7 +49,6 @@ final class EventWriter {
         write(event);
     }
 
-    /** Prints an unexpected exception. */
     void fault(Throwable fault) {
         StackTraceElement[] trace = fault.getStackTrace();
         notice("fault", "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : ""));

@@ -17,7 +17,6 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  * --orientation off|tcp|udp}, {@code --orientation-hz N}.
  */
 final class PhoneOptions {
-    /** How the airborne side is to be. */
     final AirborneSettings settings;
 
     private PhoneOptions(AirborneSettings settings) {
