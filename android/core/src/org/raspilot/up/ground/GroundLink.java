@@ -57,8 +57,9 @@ final class GroundLink implements UpSocketListener {
         this.settings = settings;
         this.listener = listener;
         claim = new ControlLease(settings, tokens, facts);
-        quiet = new SilenceWatchdog(loop, new Quiet());
-        security = new LinkSecurity(loop, settings.pairing, facts, new Secured());
+        quiet = new SilenceWatchdog(loop, facts, forMs -> drop(
+                "silent", "nothing came for " + Math.round(forMs / 1000.0) + " s"));
+        security = new LinkSecurity(loop, settings.pairing, facts, this);
         facts.isTls = settings.tls != null;
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
@@ -110,8 +111,18 @@ final class GroundLink implements UpSocketListener {
         return sealed != null && sendPlain(sealed);
     }
 
-    private boolean sendPlain(byte[] line) {
+    /** Sends a line as it is. */
+    boolean sendPlain(byte[] line) {
         return isOpen() && socket.send(line);
+    }
+
+    /** Takes the aircraft's clock, authentic and read between two times here, ms. */
+    void onClock(double clockMs, long fromMs, long toMs) {
+        listener.onClock(clockMs, fromMs, toMs);
+    }
+
+    private void drop(String code, String reason) {
+        socket.drop(code, reason);
     }
 
     /** Called when the period of telemetry may change. */
@@ -316,31 +327,6 @@ final class GroundLink implements UpSocketListener {
         isGreeted = false;
         facts.roundTripMs = null;
         facts.enter(state, loop.nowMs(), code, reason);
-    }
-
-    private final class Secured implements LinkSecurity.Owner {
-        @Override
-        public void send(byte[] line) {
-            sendPlain(line);
-        }
-
-        @Override
-        public void onClock(double clockMs, long fromMs, long toMs) {
-            listener.onClock(clockMs, fromMs, toMs);
-        }
-    }
-
-    private final class Quiet implements SilenceWatchdog.Owner {
-        @Override
-        public Boolean isAircraftOnline() {
-            // Without a session the aircraft sends nothing but replies to hellos.
-            return facts.keyFault().isEmpty() ? facts.isAircraftOnline : Boolean.FALSE;
-        }
-
-        @Override
-        public void onQuiet(long forMs) {
-            socket.drop("silent", "nothing came for " + Math.round(forMs / 1000.0) + " s");
-        }
     }
 
     /** Receives the events and messages of a {@link GroundLink}. */

@@ -23,7 +23,7 @@ import org.raspilot.up.ground.GainsService.GainsEntry;
 import org.raspilot.up.ground.GainsService;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
-final class GainsPage extends Page implements View.OnClickListener {
+final class GainsPage extends Page {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
             Collections.singletonMap("request", true);
@@ -52,10 +52,10 @@ final class GainsPage extends Page implements View.OnClickListener {
         problem = text(R.id.gains_problem);
         difference = text(R.id.gains_difference);
         past = text(R.id.gains_past);
-        ask = button(R.id.gains_ask);
-        undo = button(R.id.gains_undo);
-        discard = button(R.id.gains_discard);
-        send = button(R.id.gains_send);
+        ask = button(R.id.gains_ask, pressed -> desk.requestGains());
+        undo = button(R.id.gains_undo, pressed -> confirmUndo());
+        discard = button(R.id.gains_discard, pressed -> discard());
+        send = button(R.id.gains_send, pressed -> confirmSend());
         updateActive();
         table = new GainsTable(element, editor, () -> update());
         update();
@@ -79,19 +79,10 @@ final class GainsPage extends Page implements View.OnClickListener {
         TextViews.showOrHide(past, pastText());
     }
 
-    @Override
-    public void onClick(View button) {
-        if (button == ask) {
-            desk.requestGains();
-        } else if (button == discard) {
-            editor.discard();
-            table.refill();
-            update();
-        } else if (button == undo) {
-            confirmUndo();
-        } else {
-            confirmSend();
-        }
+    private void discard() {
+        editor.discard();
+        table.refill();
+        update();
     }
 
     private void updateActive() {
@@ -182,9 +173,9 @@ final class GainsPage extends Page implements View.OnClickListener {
         return all.toString();
     }
 
-    private Button button(int id) {
+    private Button button(int id, View.OnClickListener pressed) {
         Button found = (Button) element.findViewById(id);
-        found.setOnClickListener(this);
+        found.setOnClickListener(pressed);
         return found;
     }
 

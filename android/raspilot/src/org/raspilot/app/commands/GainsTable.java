@@ -1,6 +1,5 @@
 package org.raspilot.app.commands;
 
-import android.text.Editable;
 import org.raspilot.app.view.TextListener;
 import android.view.LayoutInflater;
 import android.view.View;
@@ -93,13 +92,20 @@ final class GainsTable {
             // Each row has the same ids, so only the editor stores the texts.
             input.setSaveEnabled(false);
             Cell cell = new Cell(key, input, (TextView) row.findViewById(FLYING[term]));
-            input.addTextChangedListener(cell);
+            input.addTextChangedListener((TextListener) text -> write(key, text.toString()));
             cells.add(cell);
         }
         list.addView(row);
     }
 
-    private final class Cell implements TextListener {
+    private void write(GainKey key, String text) {
+        if (!isFilling) {
+            editor.write(key, text);
+            onWritten.run();
+        }
+    }
+
+    private static final class Cell {
         private final GainKey key;
         private final EditText input;
         private final TextView flying;
@@ -108,14 +114,6 @@ final class GainsTable {
             this.key = key;
             this.input = input;
             this.flying = flying;
-        }
-
-        @Override
-        public void afterTextChanged(Editable text) {
-            if (!isFilling) {
-                editor.write(key, text.toString());
-                onWritten.run();
-            }
         }
     }
 }

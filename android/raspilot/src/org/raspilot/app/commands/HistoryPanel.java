@@ -12,7 +12,7 @@ import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Answer;
 
 /** The newest answer; a tap on it opens all sent Commands with their outcomes. */
-final class HistoryPanel implements View.OnClickListener {
+final class HistoryPanel {
     private final CommandHistory history;
     private final TextView newest;
     private final View box;
@@ -25,21 +25,16 @@ final class HistoryPanel implements View.OnClickListener {
         newest = (TextView) root.findViewById(R.id.commands_newest);
         box = root.findViewById(R.id.commands_history_box);
         all = (TextView) root.findViewById(R.id.commands_history);
-        newest.setOnClickListener(this);
+        newest.setOnClickListener(pressed -> toggle());
     }
 
-    boolean isOpen() {
+    private boolean isOpen() {
         return box.getVisibility() == View.VISIBLE;
     }
 
-    void setOpen(boolean isOpen) {
-        box.setVisibility(isOpen ? View.VISIBLE : View.GONE);
+    private void toggle() {
+        box.setVisibility(isOpen() ? View.GONE : View.VISIBLE);
         update();
-    }
-
-    @Override
-    public void onClick(View view) {
-        setOpen(!isOpen());
     }
 
     void update() {

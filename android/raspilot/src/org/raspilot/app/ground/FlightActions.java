@@ -31,7 +31,7 @@ import org.raspilot.up.ground.Home;
 import org.raspilot.up.ground.Telemetry;
 
 /** RETURN and LOITER by a button, GUIDED and home by a tap on the track; each is confirmed. */
-final class FlightActions implements View.OnClickListener, TrackView.TapListener {
+final class FlightActions implements TrackView.TapListener {
     private static final String TARGET = "up.navigation.target";
     private static final String HOME = "up.home.set";
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
@@ -53,8 +53,8 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         confirmation = new Confirmation(activity);
         home = (Button) root.findViewById(R.id.ground_return);
         loiter = (Button) root.findViewById(R.id.ground_loiter);
-        home.setOnClickListener(this);
-        loiter.setOnClickListener(this);
+        home.setOnClickListener(pressed -> ask(FlightModes.RETURN));
+        loiter.setOnClickListener(pressed -> ask(FlightModes.LOITER));
         ((TrackView) root.findViewById(R.id.ground_track)).setTapListener(this);
         CommandCatalogue catalogue = catalogue(activity);
         mode = catalogue == null ? null : catalogue.form(Commands.FLIGHT_MODE);
@@ -89,9 +89,7 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         button.setEnabled(isOffered && code == null);
     }
 
-    @Override
-    public void onClick(View button) {
-        final String name = button == home ? FlightModes.RETURN : FlightModes.LOITER;
+    private void ask(String name) {
         String now = FlightModes.acting(GroundSnapshot.of(ground).telemetry);
         confirmation.show(activity.getString(R.string.fly_question, name),
                 activity.getString(R.string.fly_now, now), name, null, () -> select(name));

@@ -20,7 +20,7 @@ import org.raspilot.up.ground.Track.TrackPoint;
 import org.raspilot.up.ground.Track;
 
 /** The track, the aircraft's position, and a link to the system's own map. */
-final class TrackPanel implements View.OnClickListener {
+final class TrackPanel {
     private final Activity activity;
     private final TrackView view;
     private final TextView place;
@@ -34,10 +34,10 @@ final class TrackPanel implements View.OnClickListener {
         view = (TrackView) root.findViewById(R.id.ground_track);
         place = (TextView) root.findViewById(R.id.ground_place);
         map = root.findViewById(R.id.ground_map);
-        map.setOnClickListener(this);
-        root.findViewById(R.id.ground_follow).setOnClickListener(this);
-        root.findViewById(R.id.ground_larger).setOnClickListener(this);
-        root.findViewById(R.id.ground_smaller).setOnClickListener(this);
+        map.setOnClickListener(pressed -> openMap());
+        root.findViewById(R.id.ground_follow).setOnClickListener(pressed -> view.follow());
+        root.findViewById(R.id.ground_larger).setOnClickListener(pressed -> view.enlarge());
+        root.findViewById(R.id.ground_smaller).setOnClickListener(pressed -> view.shrink());
     }
 
     void update(GroundSnapshot picture) {
@@ -67,20 +67,6 @@ final class TrackPanel implements View.OnClickListener {
         String age = InstrumentPanel.ageText(picture, "location.latitude");
         view.setFreshness(freshness, age);
         showPlace(picture, age);
-    }
-
-    @Override
-    public void onClick(View button) {
-        int id = button.getId();
-        if (id == R.id.ground_follow) {
-            view.follow();
-        } else if (id == R.id.ground_larger) {
-            view.enlarge();
-        } else if (id == R.id.ground_smaller) {
-            view.shrink();
-        } else if (id == R.id.ground_map) {
-            openMap();
-        }
     }
 
     private boolean isNew(Track.Snapshot track) {

@@ -1,6 +1,5 @@
 package org.raspilot.app.ground;
 
-import android.text.Editable;
 import org.raspilot.app.view.TextListener;
 import android.view.LayoutInflater;
 import android.view.View;
@@ -20,7 +19,7 @@ import org.raspilot.up.ground.TelemetryText.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
 
 /** Every value of the newest frame, including those of unknown modules. */
-final class ValuesPanel extends BaseAdapter implements TextListener {
+final class ValuesPanel extends BaseAdapter {
     private final View element;
     private final EditText filter;
     private final ListView list;
@@ -36,7 +35,7 @@ final class ValuesPanel extends BaseAdapter implements TextListener {
         colors = InstrumentColors.of(root.getContext());
         element = root.findViewById(R.id.ground_values_box);
         filter = (EditText) root.findViewById(R.id.ground_filter);
-        filter.addTextChangedListener(this);
+        filter.addTextChangedListener((TextListener) text -> choose());
         list = (ListView) root.findViewById(R.id.ground_values);
         list.setAdapter(this);
     }
@@ -119,9 +118,8 @@ final class ValuesPanel extends BaseAdapter implements TextListener {
         return element;
     }
 
-    @Override
-    public void afterTextChanged(Editable text) {
-        rows = chosen(all, text.toString());
+    private void choose() {
+        rows = chosen(all, filter.getText().toString());
         notifyDataSetChanged();
     }
 }
