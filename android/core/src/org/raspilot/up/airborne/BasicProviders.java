@@ -31,7 +31,6 @@ final class BasicProviders {
         orientation = settings.orientationTransport() == OrientationTransport.OFF ? null
                 : new OrientationProvider(rotation.branch(), sensors.rotationRate,
                         settings.mounting, settings.orientationHz);
-        setDeclinationDeg(settings.declinationDeg);
     }
 
     void register(ProvidersController providers) {

@@ -39,7 +39,7 @@ public final class CommandReceiver {
         try {
             message = GeneralMessage.read(line, length);
         } catch (MalformedException malformed) {
-            receiveMalformed(malformed, answers);
+            refuse(malformed.id, answers, NackCode.MALFORMED, malformed.reason());
             return;
         }
         receive(message, answers);
@@ -71,11 +71,6 @@ public final class CommandReceiver {
             return;
         }
         executor.execute(command, (handlers, fault) -> conclude(message, answers, handlers, fault));
-    }
-
-    /** Counts a line that is not a General Message; rejects it if its id is readable. */
-    public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
-        refuse(malformed.id, answers, NackCode.MALFORMED, malformed.reason());
     }
 
     /**

@@ -73,11 +73,6 @@ public final class Answer {
         return why().isEmpty() ? after : after + ": " + why();
     }
 
-    @Override
-    public String toString() {
-        return sentence();
-    }
-
     /** Receives the outcome of a Command: once, on the loop, possibly before the call returns. */
     public interface AnswerListener {
         void onAnswer(Answer answer);

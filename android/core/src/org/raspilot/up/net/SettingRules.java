@@ -16,14 +16,7 @@ public final class SettingRules {
         return text.length() <= MAX_HOST_LENGTH && HOST.matcher(text).matches();
     }
 
-    public static void present(String setting, Object value) {
-        if (value == null) {
-            throw new InvalidSettingException(setting, "is missing");
-        }
-    }
-
     public static void host(String setting, String host) {
-        present(setting, host);
         if (!isHost(host)) {
             throw new InvalidSettingException(setting,
                     "must be a name or an address, without blanks and slashes");

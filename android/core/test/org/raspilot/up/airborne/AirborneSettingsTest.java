@@ -39,7 +39,6 @@ public final class AirborneSettingsTest {
         refused(builder().runnerPort(70000), "runner's port");
         refused(builder().host("a b"), "host");
         refused(builder().host("http://pi"), "host");
-        refused(builder().host(null), "host");
         refused(builder().discoveryHosts(Arrays.asList("")), "address of Discovery");
         refused(builder().aircraft(".hidden"), "aircraft's name");
         refused(builder().aircraft("a/b"), "aircraft's name");
@@ -48,11 +47,7 @@ public final class AirborneSettingsTest {
         refused(builder().locationPeriodMs(19), "period of the location (ms)");
         refused(builder().altitudePeriodMs(10001), "period of the altitude (ms)");
         refused(builder().headingPeriodMs(0), "period of the heading (ms)");
-        refused(builder().declinationDeg(Double.NaN), "declination (deg)");
         refused(builder().referencePressureHPa(29.92), "reference pressure (hPa)");
-        refused(builder().mounting(null), "mounting");
-        refused(builder().mode(null), "mode");
-        refused(builder().orientation(null), "way of orientation");
         refused(builder().mode(AirborneMode.BLACK_BOX),
                 "host of the runner, or of a running server");
     }
