@@ -19,7 +19,7 @@ final class LinkWatchdog {
     private final Loop loop;
     private final Runnable onDead;
     private final String prefix;
-    private Cancellable timer;
+    private Cancellable timer = Cancellable.DONE;
     private long asked;
     private long receivedAtMs;
     private boolean isOpen;
@@ -76,9 +76,6 @@ final class LinkWatchdog {
 
     private void settle() {
         isAsking = false;
-        if (timer != null) {
-            timer.cancel();
-            timer = null;
-        }
+        timer.cancel();
     }
 }

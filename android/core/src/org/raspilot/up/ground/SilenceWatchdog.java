@@ -10,7 +10,7 @@ final class SilenceWatchdog {
     private final QuietListener listener;
     private final SilenceLimit limit = new SilenceLimit();
     private long receivedAtMs;
-    private Cancellable timer;
+    private Cancellable timer = Cancellable.DONE;
 
     interface QuietListener {
         /** Called when nothing was received for that time, ms. */
@@ -30,9 +30,7 @@ final class SilenceWatchdog {
     }
 
     void stop() {
-        if (timer != null) {
-            timer.cancel();
-        }
+        timer.cancel();
     }
 
     void onLine() {

@@ -29,7 +29,7 @@ public final class UpSocket {
             new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "stopped", "not started");
     private Endpoint place;
     private Attempt current;
-    private Cancellable retry;
+    private Cancellable retry = Cancellable.DONE;
     private long connects;
 
     /** Creates a socket that is not started; {@code random}, seeded, varies the retry waits. */
@@ -154,9 +154,7 @@ public final class UpSocket {
     /** Ends the current attempt or connection; returns whether it was a connection. */
     private boolean end() {
         final boolean wasConnected = isConnected();
-        if (retry != null) {
-            retry.cancel();
-        }
+        retry.cancel();
         watch.stop();
         lines.end();
         queue.clear();

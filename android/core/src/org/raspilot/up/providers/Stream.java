@@ -18,7 +18,7 @@ final class Stream implements Panic.Listener {
     private final UpProvider provider;
     private final RateMeter rate = new RateMeter();
     private final Runnable pumping = () -> sendIfDue(false);
-    private Cancellable timer;
+    private Cancellable timer = Cancellable.DONE;
     private boolean isRunning;
     private boolean isFirst;
     private boolean isUnsent;
@@ -44,7 +44,7 @@ final class Stream implements Panic.Listener {
     /** Stops; nothing is sent afterwards. */
     void end() {
         isRunning = false;
-        cancel();
+        timer.cancel();
         panic.removeListener(this);
     }
 
@@ -79,7 +79,7 @@ final class Stream implements Panic.Listener {
 
     /** Sends a due value; a reading that arrived just now may be sent slightly early. */
     private void sendIfDue(boolean isPrompt) {
-        cancel();
+        timer.cancel();
         long nowMs = loop.nowMs();
         double wantedMs = wantedMs();
         if (wantedMs == NEVER || !provider.isOpen()) {
@@ -128,13 +128,6 @@ final class Stream implements Panic.Listener {
         lastMs = nowMs;
         if (provider.transmit()) {
             rate.count(nowMs);
-        }
-    }
-
-    private void cancel() {
-        if (timer != null) {
-            timer.cancel();
-            timer = null;
         }
     }
 }

@@ -98,17 +98,6 @@ public final class AirborneTest {
     }
 
     @Test
-    public void whatWaitedOnTheOldConnectionDiesWithIt() {
-        bench.connected(AirborneBench.fixed().build());
-        bench.general().room = 30;
-        bench.gps.give(new Fix(11, 11, null, null, null, null, null, null));
-        bench.general().end("gone");
-        bench.loop.advance(5000);
-        bench.accept(50001);
-        assertEquals("[]", bench.lines().toString());
-    }
-
-    @Test
     public void afterTheStopNothingIsLeftBehind() {
         Airborne airborne = bench.connected(AirborneBench.blackBox().build());
         bench.accept(50000);

@@ -25,12 +25,6 @@ public final class TypedCommandsTest {
         assertRefused("missing text", () -> Commands.of(Commands.SPEAK, "text", null));
         assertRefused("empty text", () -> Commands.of(Commands.MARK, "text", " \u00a0"));
         assertRefused("malformed topic", () -> Commands.record("alone", Collections.emptyMap()));
-        assertRefused("out_of_range stabPIDs.elevator.d", () ->
-                Commands.pids(new GainSet(new LoopGains(GAINS, GAINS, null),
-                        new LoopGains(GAINS, new Gains(1, 1, 50.5), null))));
-        assertRefused("incomplete pids", () ->
-                Commands.pids(new GainSet(new LoopGains(GAINS, GAINS, GAINS),
-                        new LoopGains(GAINS, GAINS, null))));
     }
 
     @Test

@@ -24,18 +24,14 @@ public final class LocationProviderTest {
     }
 
     @Test
-    public void impossibleAgeAndSatellitesAreLeftOut() {
+    public void whatIsImpossibleOrNotKnownIsLeftOut() {
         bench.run(provider);
         gps.give(new Fix(3, 4, null, null, null, null, -5.0, -1));
         assertEquals("up.location.update {latitude=3.0, longitude=4.0}", bench.sink.last());
         bench.loop.advance(1000);
         gps.give(new Fix(5, 4, null, null, null, null, 60001.0, 256));
         assertEquals("up.location.update {latitude=5.0, longitude=4.0}", bench.sink.last());
-    }
-
-    @Test
-    public void whatGpsDoesNotKnowIsLeftOut() {
-        bench.run(provider);
+        bench.loop.advance(1000);
         gps.give(new Fix(1, 2, null, Double.NaN, Double.POSITIVE_INFINITY, null, null, null));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0}", bench.sink.last());
     }

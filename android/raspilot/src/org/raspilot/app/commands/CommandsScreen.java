@@ -23,7 +23,6 @@ import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.ground.CommandGate;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
-import org.raspilot.up.ground.GainsService;
 
 /** The list of Commands and the page of the one that is open, while their views live. */
 final class CommandsScreen {
@@ -122,11 +121,6 @@ final class CommandsScreen {
 
     GroundSnapshot picture() {
         return GroundSnapshot.of(ground);
-    }
-
-    /** Returns the gains that are known now; null: none. */
-    GainsService.Snapshot gains() {
-        return GroundSnapshot.of(ground).gains;
     }
 
     /** Returns what remembers texts, history and gains. */

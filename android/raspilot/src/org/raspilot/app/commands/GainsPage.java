@@ -86,7 +86,7 @@ final class GainsPage extends Page {
     }
 
     private void updateActive() {
-        GainsService.Snapshot newest = desk.gains();
+        GainsService.Snapshot newest = desk.picture().gains;
         if (newest != shown) {
             shown = newest;
             editor.setActive(newest == null ? null : newest.flying);

@@ -163,7 +163,8 @@ final class StatePanel {
         }
         boolean isFresh = all.length() == 0;
         String text = isFresh ? words.getString(R.string.state_none) : all.toString();
-        row(R.string.state_stale).show(text, Freshness.LIVE, "", isFresh ? Row.Look.PLAIN : Row.Look.WARNING);
+        row(R.string.state_stale).show(text, Freshness.LIVE, "",
+                isFresh ? Row.Look.PLAIN : Row.Look.WARNING);
     }
 
     private void showBatteries(GroundSnapshot picture) {

@@ -8,6 +8,7 @@ import android.view.View;
 import android.widget.TextView;
 import android.widget.Toast;
 import java.util.List;
+import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
@@ -127,7 +128,9 @@ final class TrackPanel {
             return;
         }
         String label = Uri.encode(activity.getString(R.string.ground_map_label));
-        Uri uri = Uri.parse(GeoUri.of(latitudeDeg, longitudeDeg, label));
+        // Not the user's language: a decimal comma would be another place.
+        String at = String.format(Locale.ROOT, "%.7f,%.7f", latitudeDeg, longitudeDeg);
+        Uri uri = Uri.parse("geo:" + at + "?q=" + at + "(" + label + ")");
         try {
             activity.startActivity(new Intent(Intent.ACTION_VIEW, uri));
         } catch (ActivityNotFoundException none) {
