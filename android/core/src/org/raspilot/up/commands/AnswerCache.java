@@ -53,16 +53,12 @@ final class AnswerCache {
     static final class Entry {
         private final String content;
         private final long timeMs;
-        private GeneralMessage answer;
+        /** Null until there is one. */
+        GeneralMessage answer;
 
         private Entry(String content, long timeMs) {
             this.content = content;
             this.timeMs = timeMs;
-        }
-
-        /** Returns the answer, or null until there is one. */
-        GeneralMessage answer() {
-            return answer;
         }
     }
 }

@@ -94,8 +94,8 @@ public final class CommandReceiver {
             return false;
         }
         AnswerCache.Entry known = memory(answers).add(message, loop.nowMs());
-        if (known != null && known.answer() != null) {
-            answers.answer(known.answer());
+        if (known != null && known.answer != null) {
+            answers.answer(known.answer);
         }
         return known != null;
     }

@@ -65,8 +65,7 @@ public abstract class TelemetryService extends Service {
     private void begin() {
         fault = "";
         try {
-            run = new GroundRun(this, readSettings(), isOnWifi(), view, (up, telemetry) ->
-                    TelemetryService.this.onUp(up, telemetry));
+            run = new GroundRun(this, view);
         } catch (IllegalArgumentException | IOException failure) {
             fault = failure.getMessage();
         }

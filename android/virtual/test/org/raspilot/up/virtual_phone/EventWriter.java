@@ -19,15 +19,10 @@ final class EventWriter {
         this.out = new BufferedOutputStream(out, 16384);
     }
 
-    /** Starts an event of that name; more fields may be put into it. */
-    static Map<String, Object> event(String name) {
+    /** Starts an event; more fields may be put into it. */
+    static Map<String, Object> event(String name, String field, Object value) {
         Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("event", name);
-        return fields;
-    }
-
-    static Map<String, Object> event(String name, String field, Object value) {
-        Map<String, Object> fields = event(name);
         fields.put(field, value);
         return fields;
     }
