@@ -115,7 +115,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
     }
 
     @Override
-    public void onConnected(UpSocket connected) {
+    public void onConnected() {
         reported = "";
         watch.opened();
         if (orientation != null && wasLost) {
@@ -125,28 +125,28 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
             orientation.reconnectNow();
         }
         wasLost = false;
-        listener.onConnected(connected.status().endpoint);
+        listener.onConnected(socket.status().endpoint);
         up.providersController().linkOpened();
     }
 
     @Override
-    public void onReceived(UpSocket from, byte[] bytes, int length) {
+    public void onReceived(byte[] bytes, int length) {
         watch.onLine();
         up.commandReceiver().receiveLine(bytes, length, this);
     }
 
     @Override
-    public void onLost(UpSocket lost, String reason) {
+    public void onLost(String reason) {
         watch.closed();
         wasLost = true;
-        reported = lost.status().sentence;
+        reported = socket.status().sentence;
         up.providersController().linkClosed();
-        listener.onDisconnected(lost.status().code, reason);
+        listener.onDisconnected(socket.status().code, reason);
     }
 
     @Override
-    public void onStatus(UpSocket changed) {
-        UpSocketStatus status = changed.status();
+    public void onStatus() {
+        UpSocketStatus status = socket.status();
         boolean isTrouble = status.state == UpSocketStatus.State.WAITING;
         if (isTrouble && !status.sentence.equals(reported)) {
             reported = status.sentence;

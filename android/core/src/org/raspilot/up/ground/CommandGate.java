@@ -52,7 +52,7 @@ public final class CommandGate {
 
     static DisabledReason ofAircraft(String name, Boolean tuneInFlight, Telemetry telemetry,
             long nowMs) {
-        if (telemetry.isSilent(nowMs)) {
+        if (telemetry.age.isSilent(nowMs)) {
             return DisabledReason.SILENT;
         }
         boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;

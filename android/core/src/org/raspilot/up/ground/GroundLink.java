@@ -167,7 +167,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     @Override
-    public void onConnected(UpSocket connected) {
+    public void onConnected() {
         final long nowMs = loop.nowMs();
         connectTookMs = nowMs - connectingMs;
         quiet.start();
@@ -186,7 +186,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     @Override
-    public void onReceived(UpSocket from, byte[] bytes, int length) {
+    public void onReceived(byte[] bytes, int length) {
         quiet.onLine();
         if (ControlLine.isControlLine(bytes, length)) {
             if (!isGreeted) {
@@ -203,18 +203,18 @@ final class GroundLink implements UpSocketListener {
     }
 
     @Override
-    public void onLost(UpSocket lost, String reason) {
+    public void onLost(String reason) {
         final boolean wasOpen = isOpen();
         final LinkState next =
                 facts.state == LinkState.STOPPED ? LinkState.STOPPED : LinkState.WAITING;
-        close(next, lost.status().code, reason);
+        close(next, socket.status().code, reason);
         if (wasOpen) {
             listener.onLost(reason);
         }
     }
 
     @Override
-    public void onStatus(UpSocket changed) {
+    public void onStatus() {
         final UpSocketStatus status = socket.status();
         if (status == judged || facts.state == LinkState.STOPPED) {
             return;

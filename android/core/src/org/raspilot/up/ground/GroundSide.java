@@ -185,11 +185,11 @@ public final class GroundSide implements TelemetrySource {
         judge.update(frame, status(), nowMs);
         executor.executeCommand(new BaseCommand(message));
         listener.onTelemetry(frame);
-        if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
+        if (wasSilent != frame.age.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
         final ControlStatus control = ControlStatus.of(link.facts(), settings.isDirect);
-        if (control == ControlStatus.OURS && !frame.isSilent(nowMs)
+        if (control == ControlStatus.OURS && !frame.age.isSilent(nowMs)
                 && link.facts().keyFault().isEmpty()) {
             gains.onTick();
         }
@@ -199,7 +199,7 @@ public final class GroundSide implements TelemetrySource {
     /** Checks again when this frame expires, so that silence is reported without another event. */
     private void awaitSilence(Telemetry frame, long nowMs) {
         silence.cancel();
-        final Long ageMs = frame.ageMs(nowMs);
+        final Long ageMs = frame.age.frameMs(nowMs);
         if (ageMs != null && ageMs <= TelemetrySchema.SILENT_MS) {
             silence = loop.schedule(TelemetrySchema.SILENT_MS + 1 - ageMs, () -> check(true));
         }

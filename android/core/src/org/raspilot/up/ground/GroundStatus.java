@@ -62,7 +62,7 @@ public final class GroundStatus {
         isAircraftOnline = facts.isAircraftOnline;
         roundTripMs = facts.roundTripMs;
         rateHz = stream.rateHz(nowMs);
-        isSilent = newest.isSilent(nowMs);
+        isSilent = newest.age.isSilent(nowMs);
         isLate = newest.age.isLate(nowMs);
         commandRole = facts.keyRole.isEmpty() ? newest.text("ground.role") : facts.keyRole;
         keyFault = facts.keyFault();

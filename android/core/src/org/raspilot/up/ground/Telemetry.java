@@ -70,21 +70,6 @@ public final class Telemetry {
         return new Telemetry(tree, beacon, receivedMs, age.withLostLink());
     }
 
-    /** Returns the age of the frame including transit, ms; null without a frame. */
-    public Long ageMs(long nowMs) {
-        return age.frameMs(nowMs);
-    }
-
-    /** Returns the age of a reading ({@link Age#readingMs}), ms; null: not known. */
-    public Long readingAgeMs(String reading, long nowMs) {
-        return age.readingMs(reading, nowMs);
-    }
-
-    /** Returns whether no displayed value can be trusted to be current. */
-    public boolean isSilent(long nowMs) {
-        return age.isSilent(nowMs);
-    }
-
     /** Returns whether the value at a path may be flown by now. */
     public Freshness freshness(String path, long nowMs) {
         if (at(path) == null) {

@@ -41,7 +41,7 @@ public final class UpSocket {
         this.settings = settings;
         queue = new SendQueue(settings.isRaw);
         backOff = new BackOff(settings.initialRetryMs, settings.maxRetryMs, random);
-        lines = new LineDispatcher(loop, line -> listener.onReceived(this, line, line.length));
+        lines = new LineDispatcher(loop, line -> listener.onReceived(line, line.length));
         watch = new ConnectionWatchdog(loop, settings, () -> beat(), () -> drop("stalled",
                 current.peer + " took nothing for " + settings.stallLimitMs + " ms"));
     }
@@ -60,7 +60,7 @@ public final class UpSocket {
             final boolean wasConnected = end();
             setState(UpSocketStatus.State.STOPPED, "stopped", "stopped");
             if (wasConnected) {
-                listener.onLost(this, "stopped");
+                listener.onLost("stopped");
             }
         }
     }
@@ -98,7 +98,7 @@ public final class UpSocket {
         retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
         setState(UpSocketStatus.State.WAITING, code, reason + "; trying again");
         if (wasConnected) {
-            listener.onLost(this, reason);
+            listener.onLost(reason);
         }
     }
 
@@ -169,7 +169,7 @@ public final class UpSocket {
     private void setState(UpSocketStatus.State state, String code, String sentence) {
         status = new UpSocketStatus(state, place, code, sentence);
         // Posted, because a listener may throw, and may stop this in the middle of a change.
-        loop.post(() -> listener.onStatus(UpSocket.this));
+        loop.post(() -> listener.onStatus());
     }
 
     private boolean flushIf(boolean isTaken) {
@@ -235,13 +235,13 @@ public final class UpSocket {
             lines.begin(this);
             setState(UpSocketStatus.State.CONNECTED, "", "connected to " + peer);
             watch.start();
-            listener.onConnected(UpSocket.this);
+            listener.onConnected();
         }
 
         @Override
         public void onBytes(byte[] bytes, int length) {
             if (settings.isRaw) {
-                listener.onReceived(UpSocket.this, bytes, length);
+                listener.onReceived(bytes, length);
             } else {
                 lines.feed(bytes, length);
             }

@@ -34,9 +34,4 @@ public final class UpSocketStatus {
     public boolean isConnected() {
         return state == State.CONNECTED;
     }
-
-    @Override
-    public String toString() {
-        return state + ": " + sentence;
-    }
 }

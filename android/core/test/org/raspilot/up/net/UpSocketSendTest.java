@@ -129,17 +129,18 @@ public final class UpSocketSendTest {
 
     @Test
     public void whatItsListenerSendsWhenConnectedGoesFirst() {
-        final UpSocket polite = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
+        final UpSocket[] polite = new UpSocket[1];
+        polite[0] = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
                 new Diary() {
                     @Override
-                    public void onConnected(UpSocket made) {
-                        assertTrue(made.isConnected());
-                        assertTrue(made.send(bytes("UP1 aircraft=default")));
+                    public void onConnected() {
+                        assertTrue(polite[0].isConnected());
+                        assertTrue(polite[0].send(bytes("UP1 aircraft=default")));
                     }
                 }, UpSocketSettings.lines().withHeartbeatMs(1000), new Random(1));
-        polite.start();
+        polite[0].start();
         network.newest().accept();
-        polite.send(bytes("next"));
+        polite[0].send(bytes("next"));
         assertEquals("UP1 aircraft=default\nnext\n", network.newest().written());
     }
 
@@ -148,8 +149,8 @@ public final class UpSocketSendTest {
         final UpSocket clumsy = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
                 new Diary() {
                     @Override
-                    public void onReceived(UpSocket from, byte[] line, int length) {
-                        diary.onReceived(from, line, length);
+                    public void onReceived(byte[] line, int length) {
+                        diary.onReceived(line, length);
                         if (line[0] == 'b') {
                             throw new IllegalStateException("bad line");
                         }

@@ -148,15 +148,15 @@ final class StatePanel {
 
     private void showStale(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
-        if (telemetry.isSilent(picture.nowMs)) {
-            boolean wasThere = telemetry.ageMs(picture.nowMs) != null;
+        if (telemetry.age.isSilent(picture.nowMs)) {
+            boolean wasThere = telemetry.age.frameMs(picture.nowMs) != null;
             String text = words.getString(wasThere ? R.string.state_all : R.string.state_nothing);
             row(R.string.state_stale).show(text, Freshness.LIVE, "", Row.Look.ALARM);
             return;
         }
         StringBuilder all = new StringBuilder();
         for (String reading : Age.readings()) {
-            if (telemetry.readingAgeMs(reading, picture.nowMs) != null
+            if (telemetry.age.readingMs(reading, picture.nowMs) != null
                     && telemetry.age.isStale(reading, picture.nowMs)) {
                 all.append(all.length() == 0 ? "" : ", ").append(reading);
             }
