@@ -105,7 +105,7 @@ public final class AirborneSettings {
         SettingRules.port("port of Discovery", discoveryPort);
         SettingRules.port("runner's port", runnerPort);
         if (!aircraft.isEmpty()) {
-            SettingRules.aircraft("aircraft's name", aircraft);
+            SettingRules.aircraft(aircraft);
         }
         SettingRules.range("length of the profile's name", profile.length(), 0, 64);
         SettingRules.pairing(pairing, aircraft);

@@ -1,6 +1,5 @@
 package org.raspilot.up.ground;
 
-import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.net.SettingRules;
 import org.raspilot.up.security.Pairing;
 import org.raspilot.up.tls.TlsIdentity;
@@ -30,7 +29,7 @@ public final class GroundSettings {
      * @param aircraft which of the proxy's aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}
      * @param seat COMMAND or LISTEN: the seat to request when the link opens
      * @param isDirect send no hello: an aircraft's listener in the same network
-     * @throws InvalidSettingException with one sentence that names the setting
+     * @throws IllegalArgumentException with one sentence that names the setting
      */
     public GroundSettings(String host, int port, String aircraft, ProxyRole seat,
             boolean isDirect) {
@@ -41,9 +40,9 @@ public final class GroundSettings {
             boolean isDirect, Pairing pairing, TlsIdentity tls) {
         SettingRules.host("host", host == null ? "" : host.trim());
         SettingRules.port("port", port);
-        SettingRules.aircraft("aircraft's name", aircraft);
+        SettingRules.aircraft(aircraft);
         if (seat != ProxyRole.COMMAND && seat != ProxyRole.LISTEN) {
-            throw new InvalidSettingException("seat", "must be to command or to listen");
+            throw new IllegalArgumentException("the seat must be to command or to listen");
         }
         this.host = host.trim();
         this.port = port;

@@ -13,7 +13,7 @@ public final class Endpoint {
      */
     public Endpoint(String host, int generalPort, int orientationPort) {
         if (host == null || host.isEmpty()) {
-            throw new SettingRules.InvalidSettingException("host", "is empty");
+            throw new IllegalArgumentException("the host is empty");
         }
         SettingRules.port("port", generalPort);
         SettingRules.range("orientation port", orientationPort, 0, 65535);

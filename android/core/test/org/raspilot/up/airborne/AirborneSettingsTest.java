@@ -10,7 +10,6 @@ import java.util.List;
 import org.junit.Test;
 import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
-import org.raspilot.up.net.SettingRules.InvalidSettingException;
 
 /** Defaults, rejected values with their messages, and the addresses of Discovery requests. */
 public final class AirborneSettingsTest {
@@ -110,7 +109,8 @@ public final class AirborneSettingsTest {
     }
 
     private static void refused(AirborneSettings.Builder builder, String setting) {
-        assertEquals(setting,
-                assertThrows(InvalidSettingException.class, () -> builder.build()).setting);
+        String sentence = assertThrows(IllegalArgumentException.class, () -> builder.build())
+                .getMessage();
+        assertTrue(sentence, sentence.startsWith("the " + setting + " "));
     }
 }

@@ -2,10 +2,10 @@ package org.raspilot.up.ground;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertThrows;
+import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
 import org.junit.function.ThrowingRunnable;
-import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.wire.ProxyRole;
 
 /** Settings are valid or not there. */
@@ -30,6 +30,7 @@ public final class GroundSettingsTest {
     }
 
     private static void refused(String setting, ThrowingRunnable call) {
-        assertEquals(setting, assertThrows(InvalidSettingException.class, call).setting);
+        final String sentence = assertThrows(IllegalArgumentException.class, call).getMessage();
+        assertTrue(sentence, sentence.startsWith("the " + setting + " "));
     }
 }

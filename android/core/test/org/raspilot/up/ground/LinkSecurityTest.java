@@ -17,7 +17,6 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandCatalogue;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
-import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.security.Pairing;
 import org.raspilot.up.security.TestAircraft;
 import org.raspilot.up.wire.BinaryLine;
@@ -301,7 +300,7 @@ public final class LinkSecurityTest {
 
     @Test
     public void theKeyOfAnotherAircraftIsNotUsed() {
-        assertThrows(InvalidSettingException.class, () -> new GroundSettings("h", 1, "other",
+        assertThrows(IllegalArgumentException.class, () -> new GroundSettings("h", 1, "other",
                 ProxyRole.LISTEN, false).withPairing(pairing));
     }
 }
