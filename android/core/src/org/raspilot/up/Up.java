@@ -16,7 +16,6 @@ import org.raspilot.up.providers.ProvidersController;
 public final class Up {
     private static Up instance;
 
-    private final Loop loop;
     private final CommandRegistry registry;
     private final CommandExecutor executor;
     private final CommandReceiver receiver;
@@ -24,13 +23,7 @@ public final class Up {
 
     /** Creates an Up on a loop; exceptions from handlers are reported to the listener. */
     public Up(Loop loop, HandlerFaultListener faults) {
-        this(loop, new ProvidersController(loop), faults);
-    }
-
-    /** Creates an Up with the given providers. */
-    public Up(Loop loop, ProvidersController providers, HandlerFaultListener faults) {
-        this.loop = loop;
-        this.providers = providers;
+        providers = new ProvidersController(loop);
         registry = CommandRegistry.builtin();
         executor = new CommandExecutor(registry, faults);
         receiver = new CommandReceiver(registry, executor, loop);
@@ -60,27 +53,18 @@ public final class Up {
         instance = up;
     }
 
-    /** Returns the loop on which all of it lives. */
-    public Loop loop() {
-        return loop;
-    }
-
-    /** Returns the registry for an application's own Commands. */
     public CommandRegistry commandRegistry() {
         return registry;
     }
 
-    /** Returns the registry for an application's handlers. */
     public CommandExecutor commandExecutor() {
         return executor;
     }
 
-    /** Returns the receiver for the links' messages. */
     public CommandReceiver commandReceiver() {
         return receiver;
     }
 
-    /** Returns the registry for an application's providers. */
     public ProvidersController providersController() {
         return providers;
     }

@@ -1,16 +1,10 @@
 package org.raspilot.up;
 
-import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertNotSame;
 import static org.junit.Assert.assertSame;
 import static org.junit.Assert.assertThrows;
-import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import org.junit.After;
 import org.junit.Test;
-import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.ManualLoop;
 
 public final class UpTest {
@@ -36,18 +30,6 @@ public final class UpTest {
     @Test
     public void beforeItIsSetUpThereIsNone() {
         assertThrows(IllegalStateException.class, () -> Up.getInstance());
-    }
-
-    @Test
-    public void twoUpsShareNothing() {
-        Up one = newUp();
-        Up two = newUp();
-        one.commandExecutor().registerCommand(Commands.ARM, command ->
-                fail("delivered to the other"));
-        assertEquals(0, two.commandExecutor().executeCommand(new BaseCommand(Commands.ARM)));
-        assertNotSame(one.commandRegistry(), two.commandRegistry());
-        assertNotSame(one.providersController(), two.providersController());
-        assertTrue(one.loop() == loop);
     }
 
     private Up newUp() {

@@ -50,7 +50,7 @@ public final class KeySettingsTest extends AppBench {
         handset.open();
         handset.choose(Screen.SETTINGS);
         settings = (SettingsFragment) handset.window.get().getFragmentManager()
-                .findFragmentByTag(Screen.Part.SETTINGS.name());
+                .findFragmentByTag(Screen.SETTINGS.name());
     }
 
     @After

@@ -160,7 +160,7 @@ public final class PicturesTest {
     private void stale(String name) throws Exception {
         proxy.setFlying(false);
         long beacon = handset.ground().snapshot().telemetry.beacon;
-        Wait.until("silence", () -> handset.ground().snapshot().telemetry.isSilent(
+        Wait.until("silence", () -> handset.ground().snapshot().telemetry.age.isSilent(
                 handset.ground().snapshot().nowMs)
                         && handset.ground().snapshot().telemetry.beacon >= beacon);
         Wait.pass(300);

@@ -23,11 +23,11 @@ public final class WindowTest extends AppBench {
         return (Screen) handset.window.get().getActionBar().getSelectedTab().getTag();
     }
 
-    private Fragment part(Screen.Part part) {
+    private Fragment part(Screen part) {
         return handset.window.get().getFragmentManager().findFragmentByTag(part.name());
     }
 
-    private void mustBeSeen(Screen.Part part) {
+    private void mustBeSeen(Screen part) {
         assertNotNull(part + " is not there", part(part));
         assertFalse(part + " is detached", part(part).isDetached());
         assertNotNull(part + " has no view", part(part).getView());
@@ -40,7 +40,7 @@ public final class WindowTest extends AppBench {
         assertEquals(Screen.AIRBORNE, chosen());
         for (Screen screen : Screen.values()) {
             handset.choose(screen);
-            for (Screen.Part part : Screen.Part.values()) {
+            for (Screen part : Screen.values()) {
                 if (screen.shows(part, false)) {
                     mustBeSeen(part);
                 } else if (part(part) != null) {
@@ -72,8 +72,8 @@ public final class WindowTest extends AppBench {
     public void aTabletShowsGroundAndCommandsSideBySide() {
         handset.open();
         handset.choose(Screen.GROUND);
-        mustBeSeen(Screen.Part.GROUND);
-        mustBeSeen(Screen.Part.COMMANDS);
+        mustBeSeen(Screen.GROUND);
+        mustBeSeen(Screen.COMMANDS);
         assertEquals(Screen.values().length - 1,
                 handset.window.get().getActionBar().getTabCount());
         handset.choose(Screen.AIRBORNE);
@@ -174,7 +174,7 @@ public final class WindowTest extends AppBench {
     }
 
     private boolean isTaken(int key, String value) {
-        SettingsFragment settings = (SettingsFragment) part(Screen.Part.SETTINGS);
+        SettingsFragment settings = (SettingsFragment) part(Screen.SETTINGS);
         Preference preference = settings.findPreference(handset.application.getString(key));
         return settings.onPreferenceChange(preference, value);
     }

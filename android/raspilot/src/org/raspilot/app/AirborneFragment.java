@@ -12,7 +12,7 @@ import org.raspilot.up.android.BaseUpService;
 
 /** The airborne screen: sent readings, rates, destination, and the phone's mounting. */
 public final class AirborneFragment extends Fragment
-        implements UpWatcher, AppLog.Watcher, SpawnRequests.Watcher {
+        implements UpWatcher, AppLog.Watcher {
     private static final String IS_STARTING = "starting";
     private static final String WAS_ASKED = "asked";
 
@@ -50,7 +50,7 @@ public final class AirborneFragment extends Fragment
     public void onStart() {
         super.onStart();
         application.events().addWatcher(this);
-        application.spawning().setWatcher(this);
+        application.spawning().setWatcher(() -> showRun());
         mounting.begin();
         link.begin();
         showAll();
@@ -96,11 +96,6 @@ public final class AirborneFragment extends Fragment
 
     @Override
     public void onEvents() {
-        showRun();
-    }
-
-    @Override
-    public void onSpawning() {
         showRun();
     }
 

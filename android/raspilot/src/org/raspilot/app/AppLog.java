@@ -9,11 +9,9 @@ public final class AppLog {
     public static final int MAX_ENTRIES = 500;
 
     public interface Watcher {
-        /** Called when the book has changed. */
         void onEvents();
     }
 
-    /** One line. Immutable. */
     public static final class Entry {
         /** When it happened last, ms since 1970. */
         public final long timeMs;

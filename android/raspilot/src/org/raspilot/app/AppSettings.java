@@ -27,7 +27,6 @@ final class AppSettings {
         preferences = PreferenceManager.getDefaultSharedPreferences(this.context);
     }
 
-    /** Returns all of the airborne side. */
     AirborneSettings airborne() {
         String runner = text(R.string.key_runner_host, R.string.default_runner_host);
         String aircraft = text(R.string.key_aircraft, R.string.default_aircraft);
@@ -82,7 +81,6 @@ final class AppSettings {
         return found;
     }
 
-    /** Returns who the phone speaks to. */
     AirborneMode mode() {
         String wish = text(R.string.key_mode, R.string.default_mode);
         return context.getString(R.string.mode_black_box).equals(wish)
@@ -106,13 +104,11 @@ final class AppSettings {
         }
     }
 
-    /** Stores the phone's mounting in the aeroplane. */
     void setMounting(Mounting mounting) {
         preferences.edit().putString(context.getString(R.string.key_mounting), mounting.toText())
                 .apply();
     }
 
-    /** Returns which side of the phone is at the nose. */
     Side nose() {
         String kept = preferences.getString(context.getString(R.string.key_nose), "");
         for (Side side : Side.values()) {
@@ -123,19 +119,16 @@ final class AppSettings {
         return Side.TOP;
     }
 
-    /** Stores which side of the phone is at the nose. */
     void setNose(Side nose) {
         preferences.edit().putString(context.getString(R.string.key_nose), nose.name()).apply();
     }
 
-    /** Returns the pressure at altitude zero, hPa. */
     double referencePressureHPa() {
         String value = text(R.string.key_reference_pressure, R.string.default_reference_pressure);
         check(SettingRule.PRESSURE, value);
         return SettingRule.number(value);
     }
 
-    /** Stores the pressure at altitude zero, hPa. */
     void setReferencePressureHPa(double hPa) {
         preferences.edit().putString(context.getString(R.string.key_reference_pressure),
                 String.format(Locale.ROOT, "%.2f", hPa)).apply();
@@ -146,7 +139,6 @@ final class AppSettings {
         return preferences.getBoolean(context.getString(R.string.key_keep_screen), false);
     }
 
-    /** Stores whether the screen stays on. */
     void setScreenKept(boolean isKept) {
         preferences.edit().putBoolean(context.getString(R.string.key_keep_screen), isKept)
                 .apply();

@@ -18,11 +18,8 @@ import org.raspilot.up.tls.TlsIdentity;
  * The keys on the settings screen: pair by a text or a scanner application, list, forget; choose
  * the file of the certificates for TLS.
  */
-final class KeySettings implements Preference.OnPreferenceChangeListener,
-        Preference.OnPreferenceClickListener {
-    /** The request code of the scanner. */
+final class KeySettings {
     static final int SCAN = 1;
-    /** The request code of the choice of a file. */
     static final int FILE = 2;
 
     // The scanner applications' common interface, by ZXing.
@@ -41,7 +38,8 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         this.fragment = fragment;
         store = new PairingStore(fragment.getActivity());
         list = (PreferenceCategory) fragment.findPreference(text(R.string.key_keys));
-        fragment.findPreference(text(R.string.key_pairing)).setOnPreferenceChangeListener(this);
+        fragment.findPreference(text(R.string.key_pairing)).setOnPreferenceChangeListener(
+                (preference, value) -> pair(String.valueOf(value)));
         certificates = fragment.findPreference(text(R.string.key_certificates));
         certificates.setOnPreferenceClickListener(clicked -> onCertificates());
         Preference scan = new Preference(fragment.getActivity());
@@ -50,21 +48,6 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         scan.setOnPreferenceClickListener(clicked -> scan());
         list.addPreference(scan);
         showAll();
-    }
-
-    @Override
-    public boolean onPreferenceChange(Preference preference, Object value) {
-        pair(String.valueOf(value));
-        // The text is secret: the settings do not keep it.
-        return false;
-    }
-
-    /** Asks whether to forget the key that was clicked. */
-    @Override
-    public boolean onPreferenceClick(Preference clicked) {
-        String aircraft = String.valueOf(clicked.getTitle());
-        ask(text(R.string.forget_question, aircraft), () -> store.forget(aircraft));
-        return true;
     }
 
     /** Chooses the file of certificates, or asks whether to forget those that are kept. */
@@ -133,7 +116,7 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         }
     }
 
-    private void ask(String question, Runnable forget) {
+    private boolean ask(String question, Runnable forget) {
         new AlertDialog.Builder(fragment.getActivity())
                 .setMessage(question)
                 .setPositiveButton(R.string.forget, (dialog, which) -> {
@@ -141,24 +124,27 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
                     changed();
                 })
                 .setNegativeButton(android.R.string.cancel, null).show();
+        return true;
     }
 
-    private void pair(String pasted) {
+    /** Returns false: the text is secret, so the settings do not keep it. */
+    private boolean pair(String pasted) {
         Pairing pairing = Pairing.parse(pasted);
         if (pairing == null) {
             tell(text(R.string.pairing_invalid));
-            return;
+            return false;
         }
         try {
             store.put(pairing);
         } catch (IllegalArgumentException fault) {
             tell(fault.getMessage());
-            return;
+            return false;
         }
         tell(text(R.string.pairing_done, pairing.aircraft, pairing));
         ((EditTextPreference) fragment.findPreference(text(R.string.key_ground_aircraft)))
                 .setText(pairing.aircraft);
         changed();
+        return false;
     }
 
     private void changed() {
@@ -177,7 +163,8 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
             Preference key = new Preference(fragment.getActivity());
             key.setTitle(aircraft);
             key.setSummary(summary(aircraft));
-            key.setOnPreferenceClickListener(this);
+            key.setOnPreferenceClickListener(clicked ->
+                    ask(text(R.string.forget_question, aircraft), () -> store.forget(aircraft)));
             list.addPreference(key);
         }
         certificates.setSummary(certificates());

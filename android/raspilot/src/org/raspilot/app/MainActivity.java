@@ -58,7 +58,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     /** Receives the user's answer; without @Override, because the API 16 stubs lack the method. */
     public void onRequestPermissionsResult(int request, String[] permissions, int[] answers) {
-        Fragment airborne = getFragmentManager().findFragmentByTag(Screen.Part.AIRBORNE.name());
+        Fragment airborne = getFragmentManager().findFragmentByTag(Screen.AIRBORNE.name());
         if (airborne instanceof AirborneFragment) {
             ((AirborneFragment) airborne).permissionsAnswered();
         }
@@ -86,7 +86,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
         chosen = screen;
         FragmentManager manager = getFragmentManager();
         FragmentTransaction change = manager.beginTransaction();
-        for (Screen.Part part : Screen.Part.values()) {
+        for (Screen part : Screen.values()) {
             Fragment fragment = manager.findFragmentByTag(part.name());
             if (!screen.shows(part, isTwoPanes)) {
                 if (fragment != null && !fragment.isDetached()) {
@@ -105,7 +105,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
 
     private void showPane(int pane) {
         boolean isUsed = false;
-        for (Screen.Part part : Screen.Part.values()) {
+        for (Screen part : Screen.values()) {
             isUsed |= part.pane == pane && chosen.shows(part, isTwoPanes);
         }
         findViewById(pane).setVisibility(isUsed ? View.VISIBLE : View.GONE);

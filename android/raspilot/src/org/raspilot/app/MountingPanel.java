@@ -5,12 +5,13 @@ import android.view.View;
 import android.widget.AdapterView;
 import android.widget.Spinner;
 import android.widget.TextView;
+import org.raspilot.up.android.AndroidSources;
 import org.raspilot.up.android.ProblemListener;
-import org.raspilot.up.android.RotationFeed;
 import org.raspilot.up.providers.Attitude;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
+import org.raspilot.up.providers.SensorSource;
 import org.raspilot.up.providers.Side;
 
 /**
@@ -23,7 +24,7 @@ final class MountingPanel implements SensorListener<Rotation> {
 
     private final Context context;
     private final AppSettings settings;
-    private final RotationFeed feed;
+    private final SensorSource<Rotation> source;
     private final TextView roll;
     private final TextView pitch;
     private final TextView yaw;
@@ -35,7 +36,7 @@ final class MountingPanel implements SensorListener<Rotation> {
     MountingPanel(View root, AppSettings settings, ProblemListener problems) {
         context = root.getContext();
         this.settings = settings;
-        feed = new RotationFeed(context, new AppSensorTexts(context), problems);
+        source = AndroidSources.rotation(context, new AppSensorTexts(context), problems);
         roll = (TextView) root.findViewById(R.id.mounting_roll);
         pitch = (TextView) root.findViewById(R.id.mounting_pitch);
         yaw = (TextView) root.findViewById(R.id.mounting_yaw);
@@ -44,20 +45,22 @@ final class MountingPanel implements SensorListener<Rotation> {
         mounting = settings.mounting();
         TextView absent = (TextView) root.findViewById(R.id.mounting_absent);
         View level = root.findViewById(R.id.mounting_level);
-        absent.setVisibility(feed.isPresent() ? View.GONE : View.VISIBLE);
-        absent.setText(feed.name());
-        level.setEnabled(feed.isPresent());
+        absent.setVisibility(source.isPresent() ? View.GONE : View.VISIBLE);
+        absent.setText(source.name());
+        level.setEnabled(source.isPresent());
         level.setOnClickListener(pressed -> calibrate());
         nose.setSelection(settings.nose().ordinal());
         nose.setOnItemSelectedListener(new NoseListener());
     }
 
     void begin() {
-        feed.begin(PERIOD_MS, this);
+        if (source.isPresent()) {
+            source.subscribe(PERIOD_MS, this);
+        }
     }
 
     void end() {
-        feed.end();
+        source.unsubscribe();
         newest = null;
     }
 

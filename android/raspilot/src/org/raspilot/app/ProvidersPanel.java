@@ -93,20 +93,20 @@ final class ProvidersPanel {
 
     /** Returns the displayed name; an application's own provider has its plain name. */
     private String name(String provider) {
-        if (provider.equals(LocationProvider.NAME)) {
-            return context.getString(R.string.provider_location);
+        switch (provider) {
+            case LocationProvider.NAME:
+                return context.getString(R.string.provider_location);
+            case AltitudeProvider.NAME:
+                return context.getString(R.string.provider_altitude);
+            case HeadingProvider.NAME:
+                return context.getString(R.string.provider_heading);
+            case BatteryProvider.NAME:
+                return context.getString(R.string.provider_battery);
+            case OrientationProvider.NAME:
+                return context.getString(R.string.provider_orientation);
+            default:
+                return provider;
         }
-        if (provider.equals(AltitudeProvider.NAME)) {
-            return context.getString(R.string.provider_altitude);
-        }
-        if (provider.equals(HeadingProvider.NAME)) {
-            return context.getString(R.string.provider_heading);
-        }
-        if (provider.equals(BatteryProvider.NAME)) {
-            return context.getString(R.string.provider_battery);
-        }
-        return provider.equals(OrientationProvider.NAME)
-                ? context.getString(R.string.provider_orientation) : provider;
     }
 
     private static int state(ProviderState state) {

@@ -10,7 +10,6 @@ public final class RaspilotApplication extends Application {
     private final AppLog events = new AppLog();
     private SpawnRequests spawning;
 
-    /** Returns the application that a context belongs to. */
     public static RaspilotApplication of(Context context) {
         return (RaspilotApplication) context.getApplicationContext();
     }
@@ -30,12 +29,10 @@ public final class RaspilotApplication extends Application {
         }
     }
 
-    /** Returns the log. On the main thread. */
     public AppLog events() {
         return events;
     }
 
-    /** Adds a line with the current time to the log. On the main thread. */
     public void log(String sentence) {
         events.add(System.currentTimeMillis(), sentence);
     }

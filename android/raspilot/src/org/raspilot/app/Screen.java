@@ -4,42 +4,27 @@ import android.app.Fragment;
 import org.raspilot.app.commands.CommandsFragment;
 import org.raspilot.app.ground.GroundFragment;
 
-/** What a tab shows: its title and the fragments in the two panes. */
+/** What a tab shows: its title and its fragment; on a tablet others beside it. */
 enum Screen {
-    AIRBORNE(R.string.screen_airborne, Part.AIRBORNE),
-    GROUND(R.string.screen_ground, Part.GROUND),
-    COMMANDS(R.string.screen_commands, Part.COMMANDS),
-    SETTINGS(R.string.screen_settings, Part.SETTINGS),
-    LOG(R.string.screen_log, Part.LOG);
+    AIRBORNE(R.string.screen_airborne, R.id.pane_first, () -> new AirborneFragment()),
+    GROUND(R.string.screen_ground, R.id.pane_first, () -> new GroundFragment()),
+    COMMANDS(R.string.screen_commands, R.id.pane_second, () -> new CommandsFragment()),
+    SETTINGS(R.string.screen_settings, R.id.pane_first, () -> new SettingsFragment()),
+    LOG(R.string.screen_log, R.id.pane_first, () -> new LogFragment());
 
-    /** A fragment and the pane that contains it during its whole life. */
-    enum Part {
-        AIRBORNE(R.id.pane_first, () -> new AirborneFragment()),
-        GROUND(R.id.pane_first, () -> new GroundFragment()),
-        COMMANDS(R.id.pane_second, () -> new CommandsFragment()),
-        SETTINGS(R.id.pane_first, () -> new SettingsFragment()),
-        LOG(R.id.pane_first, () -> new LogFragment());
-
-        /** Creates the fragment. */
-        interface Maker {
-            Fragment make();
-        }
-
-        final int pane;
-        final Maker maker;
-
-        Part(int pane, Maker maker) {
-            this.pane = pane;
-            this.maker = maker;
-        }
+    interface Maker {
+        Fragment make();
     }
 
     final int title;
-    private final Part part;
+    /** The pane that contains the fragment during its whole life. */
+    final int pane;
+    final Maker maker;
 
-    Screen(int title, Part part) {
+    Screen(int title, int pane, Maker maker) {
         this.title = title;
-        this.part = part;
+        this.pane = pane;
+        this.maker = maker;
     }
 
     /** Returns whether a window with or without room for two panes has a tab for this. */
@@ -47,10 +32,10 @@ enum Screen {
         return this != COMMANDS || !isTwoPanes;
     }
 
-    /** Returns whether a part is visible while this is chosen. */
-    boolean shows(Part other, boolean isTwoPanes) {
-        boolean isBeside = isTwoPanes && this == GROUND && other == Part.COMMANDS;
-        return other == part || isBeside;
+    /** Returns whether the fragment of a screen is visible while this is chosen. */
+    boolean shows(Screen other, boolean isTwoPanes) {
+        boolean isBeside = isTwoPanes && this == GROUND && other == COMMANDS;
+        return other == this || isBeside;
     }
 
     /** Returns the screen that replaces this one in such a window. */

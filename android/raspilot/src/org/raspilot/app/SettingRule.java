@@ -8,7 +8,6 @@ import org.raspilot.up.wire.Hello;
 
 /** The rule for a setting, and the sentence that states it. */
 enum SettingRule {
-    HOST(R.string.rule_host, value -> SettingRules.isHost(value)),
     HOST_OR_NOTHING(R.string.rule_host, value -> value.isEmpty() || SettingRules.isHost(value)),
     PORT(R.string.rule_port, value -> isWhole(value, 1, 65535)),
     AIRCRAFT(R.string.rule_aircraft, value -> Hello.isAircraftName(value)),
@@ -27,7 +26,6 @@ enum SettingRule {
     private static final Pattern WHOLES = Pattern.compile("[0-9]{1,9}");
     private static final Pattern NUMBERS = Pattern.compile("[0-9]{1,5}([.,][0-9]{1,6})?");
 
-    /** The resource of the sentence that states the rule. */
     final int sentence;
     private final Check check;
 

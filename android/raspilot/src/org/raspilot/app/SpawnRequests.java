@@ -15,15 +15,9 @@ import org.raspilot.up.net.RunnerAnswer;
  * the log, whichever screen is seen then. Lives with the process, on the main thread.
  */
 final class SpawnRequests {
-    /** Called when a request starts and ends. */
-    interface Watcher {
-        /** Called when {@link SpawnRequests#isAsking} has changed. */
-        void onSpawning();
-    }
-
     private final RaspilotApplication application;
     private final Messenger answers;
-    private Watcher watcher;
+    private Runnable watcher;
     private boolean isAsking;
 
     SpawnRequests(RaspilotApplication application) {
@@ -36,13 +30,12 @@ final class SpawnRequests {
         });
     }
 
-    /** Returns whether a request waits for its answer. */
     boolean isAsking() {
         return isAsking;
     }
 
-    /** Sets the watcher, or null. */
-    void setWatcher(Watcher now) {
+    /** Sets what runs when {@link #isAsking} has changed, or null. */
+    void setWatcher(Runnable now) {
         watcher = now;
     }
 
@@ -93,7 +86,7 @@ final class SpawnRequests {
     private void setAsking(boolean now) {
         isAsking = now;
         if (watcher != null) {
-            watcher.onSpawning();
+            watcher.run();
         }
     }
 }

@@ -23,11 +23,8 @@ import org.raspilot.up.android.TelemetryService;
 public final class TelemetryLink extends Fragment {
     /** Called on the main thread. */
     public interface Watcher {
-        /** Takes the service's ground; called immediately if already bound. */
+        /** Takes the service's ground, immediately if already bound; null when it is gone. */
         void onGround(TelemetryService.Ground ground);
-
-        /** Called when it is gone; it may come again. */
-        void onGroundGone();
     }
 
     /** The link ends this time after the window was last visible, ms. */
@@ -148,11 +145,7 @@ public final class TelemetryLink extends Fragment {
     private void setGround(TelemetryService.Ground now) {
         ground = now;
         for (Watcher watcher : new ArrayList<>(watchers)) {
-            if (now == null) {
-                watcher.onGroundGone();
-            } else {
-                watcher.onGround(now);
-            }
+            watcher.onGround(now);
         }
     }
 }

@@ -4,8 +4,6 @@ import android.app.Fragment;
 import android.os.Handler;
 import org.raspilot.up.android.TelemetryService.GroundWatcher;
 import org.raspilot.up.android.TelemetryService;
-import org.raspilot.up.ground.GroundStatus;
-import org.raspilot.up.ground.Telemetry;
 
 /**
  * A screen that watches the aircraft from start to stop (thesis 4.5.3).
@@ -26,13 +24,8 @@ public abstract class WatchingFragment extends Fragment {
     };
     private final GroundWatcher watcher = new GroundWatcher() {
         @Override
-        public void onTelemetry(Telemetry telemetry) {
+        public void onTelemetry() {
             showNewest();
-        }
-
-        @Override
-        public void onStatus(GroundStatus status) {
-            showAll();
         }
 
         @Override
@@ -40,17 +33,7 @@ public abstract class WatchingFragment extends Fragment {
             showAll();
         }
     };
-    private final TelemetryLink.Watcher linkWatcher = new TelemetryLink.Watcher() {
-        @Override
-        public void onGround(TelemetryService.Ground newGround) {
-            setGround(newGround);
-        }
-
-        @Override
-        public void onGroundGone() {
-            setGround(null);
-        }
-    };
+    private final TelemetryLink.Watcher linkWatcher = newGround -> setGround(newGround);
 
     private TelemetryLink link;
     private TelemetryService.Ground ground;

@@ -4,13 +4,9 @@ import java.util.Random;
 import org.raspilot.up.Up;
 import org.raspilot.up.airborne.AirborneStatus.AirborneCounters;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.Endpoint;
-import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.Sensors;
-import org.raspilot.up.providers.Side;
-import org.raspilot.up.wire.SafeText;
 
 /**
  * The airborne phone: finds the Raspberry Pi, sends what its sensors read, carries Commands out.
@@ -20,42 +16,32 @@ import org.raspilot.up.wire.SafeText;
  * thesis 4.5.2, "Base Up Service".
  */
 public final class Airborne {
-    private static final int MAX_REASON_LENGTH = 300;
-
-    private final AirborneSettings settings;
-    private final AirborneListener listener;
     private final Up up;
     private final BasicProviders basics;
     private final AirborneHandlers handlers;
     private final AirborneLink link;
     private final SensorSilenceMonitor silence;
-    private long answers;
     private boolean isRunning;
 
     /**
-     * Stores its dependencies; nothing starts before {@link #start}.
-     *
-     * @param random a seeded source: it varies the retry waits and makes the identity by which the
-     *     Raspberry Pi distinguishes this phone from others
+     * Creates a phone that is not started; {@code random}, seeded, varies the retry waits and makes
+     * the identity by which the Raspberry Pi distinguishes this phone from others.
      */
     public Airborne(Loop loop, AirborneSettings settings, Sensors sensors, Speaker speaker,
             AirborneListener listener, Random random) {
-        this.settings = settings;
-        this.listener = listener;
         up = new Up(loop, (handler, command, fault) -> listener.onEvent("handler_failed",
                 "the handler of " + command.name() + " failed: " + fault));
-        link = new AirborneLink(loop, settings, random, new LinkOwner());
-        handlers = new AirborneHandlers(providers().panic(), speaker, new SentAnswers());
+        link = new AirborneLink(loop, settings, random, up, listener);
+        handlers = new AirborneHandlers(providers().panic(), speaker, link, listener);
         handlers.register(up.commandExecutor());
         basics = new BasicProviders(settings, sensors);
         basics.register(providers());
         silence = new SensorSilenceMonitor(loop, providers(), listener);
-        providers().addListener((name, sentence) ->
+        providers().setListener((name, sentence) ->
                 listener.onEvent("provider_problem", name + ": " + sentence));
         providers().panic().addListener(panic -> listener.onPanic(panic.delayMs()));
     }
 
-    /** Starts to read, to connect and to send. */
     public void start() {
         if (!isRunning) {
             isRunning = true;
@@ -85,32 +71,14 @@ public final class Airborne {
         return up.providersController();
     }
 
-    /** Returns the sink for other messages: newest wins, nothing is kept without a link. */
-    public MessageSink sink() {
-        return link;
-    }
-
     public AirborneStatus status() {
-        return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence,
-                link.status().endpoint, settings.mode, settings.orientationTransport(),
-                link.orientationText(), providers().panic().delayMs(), providers().statuses(),
-                new AirborneCounters(up.commandReceiver(), link.connections(),
-                        handlers.telemetry(), answers));
+        return new AirborneStatus(link.status(), providers().panic().delayMs(),
+                providers().statuses(), new AirborneCounters(up.commandReceiver(),
+                        link.connections(), handlers.telemetry(), handlers.answers()));
     }
 
     public void setMounting(Mounting mounting) {
         basics.setMounting(mounting);
-    }
-
-    /**
-     * Returns the mounting that makes the current attitude level, and uses it from now on.
-     *
-     * @param nose which side of the phone points to the nose
-     * @throws IllegalStateException without a fresh reading of the rotation sensor (a sentence)
-     * @throws IllegalArgumentException when that side points up or down (a sentence)
-     */
-    public Mounting calibrate(Side nose) {
-        return basics.calibrate(nose);
     }
 
     /** Takes the angle from magnetic to true north, degrees, east positive. */
@@ -140,46 +108,6 @@ public final class Airborne {
     public void networkChanged() {
         if (isRunning) {
             link.reconnectNow();
-        }
-    }
-
-    private final class LinkOwner implements AirborneLink.Owner {
-        @Override
-        public void onOpened(Endpoint place) {
-            listener.onConnected(place);
-            providers().linkOpened();
-        }
-
-        @Override
-        public void onLine(byte[] line, int length) {
-            up.commandReceiver().receiveLine(line, length, link);
-        }
-
-        @Override
-        public void onClosed(String code, String reason) {
-            providers().linkClosed();
-            listener.onDisconnected(code, reason);
-        }
-
-        @Override
-        public void onTrouble(String code, String sentence) {
-            listener.onEvent(code, sentence);
-        }
-    }
-
-    private final class SentAnswers implements AirborneHandlers.Answers {
-        @Override
-        public void onAck(String id) {
-            answers++;
-            link.onAnswer(id);
-        }
-
-        @Override
-        public void onNack(String id, String reason) {
-            answers++;
-            link.onAnswer(id);
-            listener.onEvent("nack_received", "the Raspberry Pi refused a message: "
-                    + SafeText.of(reason, MAX_REASON_LENGTH));
         }
     }
 }

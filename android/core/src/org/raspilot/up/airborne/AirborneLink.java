@@ -1,6 +1,7 @@
 package org.raspilot.up.airborne;
 
 import java.util.Random;
+import org.raspilot.up.Up;
 import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandReceiver.AnswerSink;
@@ -29,7 +30,8 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
     private static final String NAMELESS = "default";
     private static final String DEAD = "the Raspberry Pi stopped answering";
 
-    private final Owner owner;
+    private final Up up;
+    private final AirborneListener listener;
     private final LastEndpoint known;
     private final UpSocket socket;
     private final OrientationSender orientation;
@@ -37,31 +39,15 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
     private String reported = "";
     private boolean wasLost;
 
-    /** Receives the events of the link for Commands. */
-    interface Owner {
-        /** Called when the link is open. */
-        void onOpened(Endpoint place);
-
-        void onLine(byte[] line, int length);
-
-        /** Called when the link is lost, with the reason as a word and as a sentence. */
-        void onClosed(String code, String reason);
-
-        /** Called with the reason for a missing link, once until it changes. */
-        void onTrouble(String code, String sentence);
-    }
-
-    AirborneLink(Loop loop, AirborneSettings settings, Random random, Owner owner) {
-        this.owner = owner;
+    AirborneLink(Loop loop, AirborneSettings settings, Random random, Up up,
+            AirborneListener listener) {
+        this.up = up;
+        this.listener = listener;
         known = new LastEndpoint(discovery(loop, settings));
         socket = new UpSocket(loop, known, this, UpSocketSettings.lines(), random);
         OrientationTransport transport = settings.orientationTransport();
         orientation = transport == OrientationTransport.OFF ? null
-                : new OrientationSender(loop, known,
-                        transport == OrientationTransport.UDP
-                                ? OrientationSender.Transport.UDP
-                                : OrientationSender.Transport.TCP,
-                        random);
+                : new OrientationSender(loop, known, transport == OrientationTransport.UDP, random);
         watch = new LinkWatchdog(loop, Integer.toHexString(random.nextInt()) + ".", () ->
                 socket.drop("silent", DEAD));
     }
@@ -90,23 +76,16 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         }
     }
 
-    /** Notes an answer to one of our ids. */
     void onAnswer(String id) {
         watch.onAnswer(id);
     }
 
-    /** Returns the state of the link for Commands. */
     UpSocketStatus status() {
         return socket.status();
     }
 
     long connections() {
-        return socket.counters().connects;
-    }
-
-    /** Returns the destination of orientation, or why it is not sent. */
-    String orientationText() {
-        return orientation == null ? "off" : orientation.sentence();
+        return socket.connects();
     }
 
     @Override
@@ -136,7 +115,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
     }
 
     @Override
-    public void onConnected(UpSocket connected) {
+    public void onConnected() {
         reported = "";
         watch.opened();
         if (orientation != null && wasLost) {
@@ -146,30 +125,32 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
             orientation.reconnectNow();
         }
         wasLost = false;
-        owner.onOpened(connected.status().endpoint);
+        listener.onConnected(socket.status().endpoint);
+        up.providersController().linkOpened();
     }
 
     @Override
-    public void onReceived(UpSocket from, byte[] bytes, int length) {
+    public void onReceived(byte[] bytes, int length) {
         watch.onLine();
-        owner.onLine(bytes, length);
+        up.commandReceiver().receiveLine(bytes, length, this);
     }
 
     @Override
-    public void onLost(UpSocket lost, String reason) {
+    public void onLost(String reason) {
         watch.closed();
         wasLost = true;
-        reported = lost.status().sentence;
-        owner.onClosed(lost.status().code, reason);
+        reported = socket.status().sentence;
+        up.providersController().linkClosed();
+        listener.onDisconnected(socket.status().code, reason);
     }
 
     @Override
-    public void onStatus(UpSocket changed) {
-        UpSocketStatus status = changed.status();
+    public void onStatus() {
+        UpSocketStatus status = socket.status();
         boolean isTrouble = status.state == UpSocketStatus.State.WAITING;
         if (isTrouble && !status.sentence.equals(reported)) {
             reported = status.sentence;
-            owner.onTrouble(status.code, reported);
+            listener.onEvent(status.code, reported);
         }
     }
 

@@ -21,9 +21,7 @@ public final class AirborneSettings {
     public final AirborneMode mode;
     /** The Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
     public final String host;
-    /** The Raspberry Pi's port for General Messages. */
     public final int generalPort;
-    /** The Raspberry Pi's port for orientation. */
     public final int orientationPort;
     public final int discoveryPort;
     /** Discovery's targets; empty: 255.255.255.255 and every interface's own. */
@@ -51,9 +49,6 @@ public final class AirborneSettings {
     public final int headingPeriodMs;
     /** The pressure at altitude zero, hPa. */
     public final double referencePressureHPa;
-    /** Degrees from magnetic to true north, east positive. */
-    public final double declinationDeg;
-    /** The phone's mounting in the aeroplane. */
     public final Mounting mounting;
 
     private AirborneSettings(Builder builder) {
@@ -76,7 +71,6 @@ public final class AirborneSettings {
         altitudePeriodMs = builder.altitudePeriodMs;
         headingPeriodMs = builder.headingPeriodMs;
         referencePressureHPa = builder.referencePressureHPa;
-        declinationDeg = builder.declinationDeg;
         mounting = builder.mounting;
     }
 
@@ -101,10 +95,6 @@ public final class AirborneSettings {
     }
 
     private void check() {
-        SettingRules.present("mode", mode);
-        SettingRules.present("way of orientation", orientation);
-        SettingRules.present("mounting", mounting);
-        SettingRules.present("profile", profile);
         hostOrNothing("host", host);
         hostOrNothing("runner's host", runnerHost);
         for (String each : discoveryHosts) {
@@ -114,9 +104,8 @@ public final class AirborneSettings {
         SettingRules.port("port for orientation", orientationPort);
         SettingRules.port("port of Discovery", discoveryPort);
         SettingRules.port("runner's port", runnerPort);
-        SettingRules.present("aircraft's name", aircraft);
         if (!aircraft.isEmpty()) {
-            SettingRules.aircraft("aircraft's name", aircraft);
+            SettingRules.aircraft(aircraft);
         }
         SettingRules.range("length of the profile's name", profile.length(), 0, 64);
         SettingRules.pairing(pairing, aircraft);
@@ -125,7 +114,6 @@ public final class AirborneSettings {
         SettingRules.range("period of the location (ms)", locationPeriodMs, 20, MAX_PERIOD_MS);
         SettingRules.range("period of the altitude (ms)", altitudePeriodMs, 20, MAX_PERIOD_MS);
         SettingRules.range("period of the heading (ms)", headingPeriodMs, 20, MAX_PERIOD_MS);
-        SettingRules.range("declination (deg)", declinationDeg, -180, 180);
         SettingRules.range("reference pressure (hPa)", referencePressureHPa,
                 AltitudeProvider.MIN_REFERENCE_HPA, AltitudeProvider.MAX_REFERENCE_HPA);
         if (mode == AirborneMode.BLACK_BOX && runnerHost.isEmpty()) {
@@ -134,7 +122,6 @@ public final class AirborneSettings {
     }
 
     private static void hostOrNothing(String setting, String host) {
-        SettingRules.present(setting, host);
         if (!host.isEmpty()) {
             SettingRules.host(setting, host);
         }
@@ -161,7 +148,6 @@ public final class AirborneSettings {
         private int altitudePeriodMs = 200;
         private int headingPeriodMs = 200;
         private double referencePressureHPa = 1013.25;
-        private double declinationDeg;
         private Mounting mounting = Mounting.FLAT;
 
         public Builder mode(AirborneMode v) { mode = v; return this; }
@@ -183,7 +169,6 @@ public final class AirborneSettings {
         public Builder altitudePeriodMs(int v) { altitudePeriodMs = v; return this; }
         public Builder headingPeriodMs(int v) { headingPeriodMs = v; return this; }
         public Builder referencePressureHPa(double v) { referencePressureHPa = v; return this; }
-        public Builder declinationDeg(double v) { declinationDeg = v; return this; }
         public Builder mounting(Mounting v) { mounting = v; return this; }
 
         /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
@@ -204,7 +189,6 @@ public final class AirborneSettings {
 
     /** How orientation leaves the phone. */
     public enum OrientationTransport {
-        /** Not at all. */
         OFF,
         /** Frames back to back on a connection. */
         TCP,

@@ -1,43 +1,31 @@
 package org.raspilot.up.airborne;
 
 import java.util.List;
-import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
-import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.commands.CommandReceiver;
 import org.raspilot.up.commands.NackCode;
 import org.raspilot.up.net.Endpoint;
+import org.raspilot.up.net.UpSocketStatus;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.providers.ProviderStatus;
 
 /** What the airborne screen shows: a snapshot that never changes, for any thread. */
 public final class AirborneStatus {
-    public final boolean isRunning;
-    /** Whether the link for Commands is connected. */
     public final boolean isConnected;
     /** The state of the link in one sentence without a full stop. */
     public final String linkText;
     /** The current or last place of the connection or attempt; null: none so far. */
     public final Endpoint endpoint;
-    public final AirborneMode mode;
-    public final OrientationTransport orientation;
-    /** Orientation's destination, or why it is not sent (a sentence); {@code off}. */
-    public final String orientationText;
     /** The delay of Panic Mode, ms; 0: none. */
     public final long panicDelayMs;
     /** Each provider, in the order of registration; unmodifiable. */
     public final List<ProviderStatus> providers;
     public final AirborneCounters counters;
 
-    AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Endpoint place,
-            AirborneMode mode, OrientationTransport orientation, String orientationText,
-            long panicDelayMs, List<ProviderStatus> providers, AirborneCounters counters) {
-        this.isRunning = isRunning;
-        this.isConnected = isConnected;
-        this.linkText = linkText;
-        this.endpoint = place;
-        this.mode = mode;
-        this.orientation = orientation;
-        this.orientationText = orientationText;
+    AirborneStatus(UpSocketStatus link, long panicDelayMs, List<ProviderStatus> providers,
+            AirborneCounters counters) {
+        isConnected = link.isConnected();
+        linkText = link.sentence;
+        endpoint = link.endpoint;
         this.panicDelayMs = panicDelayMs;
         this.providers = providers;
         this.counters = counters;

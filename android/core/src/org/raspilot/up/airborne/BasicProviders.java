@@ -7,17 +7,13 @@ import org.raspilot.up.providers.HeadingProvider;
 import org.raspilot.up.providers.LocationProvider;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.OrientationProvider;
-import org.raspilot.up.providers.ProviderStatus;
 import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.Sensors;
 import org.raspilot.up.providers.SharedSource;
-import org.raspilot.up.providers.Side;
 
 /** The providers that each airborne phone has (thesis 4.5.2), by its settings. */
 final class BasicProviders {
-    private static final long MAX_CALIBRATION_AGE_MS = 1000;
-
     private final LocationProvider location;
     final AltitudeProvider altitude;
     private final BatteryProvider battery;
@@ -35,7 +31,6 @@ final class BasicProviders {
         orientation = settings.orientationTransport() == OrientationTransport.OFF ? null
                 : new OrientationProvider(rotation.branch(), sensors.rotationRate,
                         settings.mounting, settings.orientationHz);
-        setDeclinationDeg(settings.declinationDeg);
     }
 
     void register(ProvidersController providers) {
@@ -60,16 +55,5 @@ final class BasicProviders {
         if (orientation != null) {
             orientation.setDeclinationDeg(declinationDeg);
         }
-    }
-
-    Mounting calibrate(Side nose) {
-        ProviderStatus status = heading.status();
-        if (heading.newest() == null || status.ageMs > MAX_CALIBRATION_AGE_MS) {
-            throw new IllegalStateException(
-                    "the phone's rotation is not known now (" + status.sensor + ")");
-        }
-        Mounting mounting = Mounting.level(heading.newest(), nose);
-        setMounting(mounting);
-        return mounting;
     }
 }

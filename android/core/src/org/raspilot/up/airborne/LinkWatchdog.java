@@ -19,7 +19,7 @@ final class LinkWatchdog {
     private final Loop loop;
     private final Runnable onDead;
     private final String prefix;
-    private Cancellable timer;
+    private Cancellable timer = Cancellable.DONE;
     private long asked;
     private long receivedAtMs;
     private boolean isOpen;
@@ -28,9 +28,8 @@ final class LinkWatchdog {
     private boolean isAnswering;
 
     /**
-     * Creates a watch.
-     *
-     * @param prefix of the ids, up to 8 hexadecimal digits and a dot; the phone's (protocols 4)
+     * Creates a watch; the ids begin with {@code prefix}, up to 8 hexadecimal digits and a dot
+     * (protocols 4).
      */
     LinkWatchdog(Loop loop, String prefix, Runnable onDead) {
         this.loop = loop;
@@ -38,7 +37,6 @@ final class LinkWatchdog {
         this.onDead = onDead;
     }
 
-    /** Notes that a connection is open. */
     void opened() {
         closed();
         isOpen = true;
@@ -78,9 +76,6 @@ final class LinkWatchdog {
 
     private void settle() {
         isAsking = false;
-        if (timer != null) {
-            timer.cancel();
-            timer = null;
-        }
+        timer.cancel();
     }
 }

@@ -36,7 +36,6 @@ final class AnswerCache {
         return null;
     }
 
-    /** Stores the answer to an id for repetitions. */
     void setAnswer(String id, GeneralMessage answer) {
         Entry entry = entries.get(id);
         if (entry != null) {
@@ -51,20 +50,15 @@ final class AnswerCache {
         }
     }
 
-    /** One id: its message and its answer. */
     static final class Entry {
         private final String content;
         private final long timeMs;
-        private GeneralMessage answer;
+        /** Null until there is one. */
+        GeneralMessage answer;
 
         private Entry(String content, long timeMs) {
             this.content = content;
             this.timeMs = timeMs;
-        }
-
-        /** Returns the answer, or null until there is one. */
-        GeneralMessage answer() {
-            return answer;
         }
     }
 }

@@ -33,7 +33,6 @@ public class BaseCommand {
                 : message.with(name, message.id, message.beacon));
     }
 
-    /** Returns the name on the wire. */
     public final String name() {
         return message.name;
     }
@@ -46,11 +45,6 @@ public class BaseCommand {
     /** Returns the id for the requested answer, or null. */
     public final String id() {
         return message.id;
-    }
-
-    /** Returns the beacon that it carries, or null. */
-    public final Long beacon() {
-        return message.beacon;
     }
 
     public final GeneralMessage toMessage() {

@@ -6,9 +6,9 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One object of a catalogue; each reader throws when the key has another type. */
 final class CatalogueEntry {
-    final Map<?, ?> description;
+    private final Map<?, ?> description;
 
-    CatalogueEntry(Map<?, ?> description) {
+    private CatalogueEntry(Map<?, ?> description) {
         this.description = description;
     }
 

@@ -27,7 +27,7 @@ public final class CommandCatalogue {
     public static CommandCatalogue read(String json) throws MalformedException {
         CommandCatalogue catalogue = new CommandCatalogue();
         for (Object described : CatalogueEntry.of(Json.parse(json)).list("commands")) {
-            catalogue.add(CommandForm.read(described));
+            catalogue.add(new CommandForm(CatalogueEntry.of(described)));
         }
         return catalogue;
     }

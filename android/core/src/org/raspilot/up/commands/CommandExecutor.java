@@ -1,11 +1,11 @@
 package org.raspilot.up.commands;
 
 import java.util.ArrayDeque;
+import java.util.ArrayList;
 import java.util.Collections;
 import java.util.HashMap;
-import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
-import java.util.UUID;
 
 /**
  * The bus: delivers every Command to those who subscribed to it (thesis 4.1.4).
@@ -20,9 +20,8 @@ public final class CommandExecutor {
 
     private final CommandRegistry registry;
     private final HandlerFaultListener faults;
-    /** Handlers by name; a map is replaced and never changed, so that a delivery can go on. */
-    private final Map<String, Map<UUID, CommandHandler>> handlers =
-            new HashMap<>();
+    /** Handlers by name; a list is replaced and never changed, so that a delivery can go on. */
+    private final Map<String, List<CommandHandler>> handlers = new HashMap<>();
     private final ArrayDeque<Runnable> waiting = new ArrayDeque<>();
     private boolean isDelivering;
 
@@ -33,42 +32,28 @@ public final class CommandExecutor {
     }
 
     /**
-     * Subscribes a handler to a Command by its name or alias and returns the handle to remove it;
-     * one handler may be registered several times.
+     * Subscribes a handler to a Command by its name or alias; one handler may be registered several
+     * times.
      */
-    public UUID registerCommand(String name, CommandHandler handler) {
+    public void registerCommand(String name, CommandHandler handler) {
         if (handler == null) {
             throw new IllegalArgumentException("no handler for " + name);
         }
-        UUID handle = UUID.randomUUID();
-        Map<UUID, CommandHandler> now = copyOfHandlers(name);
-        now.put(handle, handler);
+        List<CommandHandler> now = new ArrayList<>(handlersOf(name));
+        now.add(handler);
         handlers.put(registry.primaryName(name), now);
-        return handle;
     }
 
-    /** Removes a subscription; returns false for a handle that does not belong to that Command. */
-    public boolean unregisterCommand(String name, UUID handle) {
-        Map<UUID, CommandHandler> now = copyOfHandlers(name);
-        if (now.remove(handle) == null) {
-            return false;
-        }
-        handlers.put(registry.primaryName(name), now);
-        return true;
-    }
-
-    /** Returns whether a Command has a subscriber. */
     public boolean hasHandlers(String name) {
         return !handlersOf(name).isEmpty();
     }
 
     /**
-     * Delivers a Command to its handlers in the order of their registration and returns how many
-     * they are; no handler's fault or refusal reaches the caller or the other handlers.
+     * Delivers a Command to its handlers in the order of their registration; no handler's fault or
+     * refusal reaches the caller or the other handlers.
      */
-    public int executeCommand(BaseCommand command) {
+    public void executeCommand(BaseCommand command) {
         execute(command, NOBODY_ASKS);
-        return handlersOf(command.name()).size();
     }
 
     /** Delivers a Command, immediately or after the current delivery, and reports the outcome. */
@@ -88,9 +73,9 @@ public final class CommandExecutor {
     }
 
     private void deliver(BaseCommand command, CommandOutcome outcome) {
-        Map<UUID, CommandHandler> subscribed = handlersOf(command.name());
+        List<CommandHandler> subscribed = handlersOf(command.name());
         Throwable first = null;
-        for (CommandHandler handler : subscribed.values()) {
+        for (CommandHandler handler : subscribed) {
             Throwable fault = run(handler, command);
             first = first == null ? fault : first;
         }
@@ -110,13 +95,9 @@ public final class CommandExecutor {
         }
     }
 
-    private Map<UUID, CommandHandler> handlersOf(String name) {
-        Map<UUID, CommandHandler> now = handlers.get(registry.primaryName(name));
-        return now == null ? Collections.emptyMap() : now;
-    }
-
-    private Map<UUID, CommandHandler> copyOfHandlers(String name) {
-        return new LinkedHashMap<>(handlersOf(name));
+    private List<CommandHandler> handlersOf(String name) {
+        List<CommandHandler> now = handlers.get(registry.primaryName(name));
+        return now == null ? Collections.emptyList() : now;
     }
 
     /** Receives the failures of handlers; the other handlers and the link continue. */
@@ -125,14 +106,8 @@ public final class CommandExecutor {
         void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault);
     }
 
-    /** Receives the outcome of one Command on the bus. */
     interface CommandOutcome {
-        /**
-         * Called when the handlers have finished, on the loop thread.
-         *
-         * @param handlers the number of handlers
-         * @param fault the first exception that a handler threw, or null
-         */
+        /** Takes the number of handlers, and the first exception that one threw, or null. */
         void onDone(int handlers, Throwable fault);
     }
 }

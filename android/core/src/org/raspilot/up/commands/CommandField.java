@@ -3,7 +3,6 @@ package org.raspilot.up.commands;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import java.util.Map;
 import org.raspilot.up.wire.MalformedException;
 
 /** One field of a Command as the catalogue describes it. */
@@ -26,7 +25,7 @@ public final class CommandField {
     public final String text;
     private final FieldRule rule;
 
-    private CommandField(CatalogueEntry entry) throws MalformedException {
+    CommandField(CatalogueEntry entry) throws MalformedException {
         name = entry.text("name");
         type = entry.type("type");
         unit = entry.text("unit");
@@ -43,11 +42,6 @@ public final class CommandField {
         rule = new FieldRule(type, minimum == null ? -Double.MAX_VALUE : minimum,
                 maximum == null ? Double.MAX_VALUE : maximum, choices,
                 maxLength == null ? Integer.MAX_VALUE : maxLength, text);
-    }
-
-    /** Reads a field out of a catalogue. */
-    static CommandField read(Map<?, ?> description) throws MalformedException {
-        return new CommandField(new CatalogueEntry(description));
     }
 
     public boolean isRequired() {

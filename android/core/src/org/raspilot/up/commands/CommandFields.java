@@ -15,7 +15,6 @@ public final class CommandFields {
 
     private final Map<String, Object> data;
 
-    /** Reads the fields of a message's data. */
     public CommandFields(Map<String, Object> data) {
         this.data = data;
     }
@@ -33,7 +32,6 @@ public final class CommandFields {
         return data.get(key) == null ? null : (Double) number(key, minimum, maximum);
     }
 
-    /** Returns a whole number within bounds. */
     public long whole(String key, long minimum, long maximum) {
         return ((Number) checked(key, FieldRule.whole(minimum, maximum))).longValue();
     }

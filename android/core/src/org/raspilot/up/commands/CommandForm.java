@@ -15,17 +15,14 @@ public final class CommandForm {
     public final List<String> aliases;
     /** What it is for, one sentence. */
     public final String text;
-    /** Whether the Command needs fresh telemetry, whose beacon it echoes. */
-    public final boolean needsBeacon;
     private final String role;
     private final List<SpecialRole> specialRoles = new ArrayList<>();
     private final Map<String, CommandField> fields = new LinkedHashMap<>();
 
-    private CommandForm(CatalogueEntry entry) throws MalformedException {
+    CommandForm(CatalogueEntry entry) throws MalformedException {
         name = entry.text("name");
         role = entry.text("role");
         text = entry.text("text");
-        needsBeacon = entry.flag("needs_beacon");
         List<String> names = new ArrayList<>();
         for (Object alias : entry.list("aliases")) {
             names.add(String.valueOf(alias));
@@ -35,14 +32,9 @@ public final class CommandForm {
             specialRoles.add(new SpecialRole(CatalogueEntry.of(special)));
         }
         for (Object described : entry.list("fields")) {
-            CommandField field = CommandField.read(CatalogueEntry.of(described).description);
+            CommandField field = new CommandField(CatalogueEntry.of(described));
             fields.put(field.name, field);
         }
-    }
-
-    /** Reads a form out of a catalogue. */
-    static CommandForm read(Object description) throws MalformedException {
-        return new CommandForm(CatalogueEntry.of(description));
     }
 
     /** Returns the least role that may send it with such data; empty: no ground may. */
@@ -110,7 +102,6 @@ public final class CommandForm {
         return CommandRegistry.builtin().read(new GeneralMessage(name, parse(inputs)));
     }
 
-    /** The role that one value of a field needs. */
     private static final class SpecialRole {
         final String field;
         final Object value;

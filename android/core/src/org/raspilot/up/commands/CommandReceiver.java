@@ -39,13 +39,12 @@ public final class CommandReceiver {
         try {
             message = GeneralMessage.read(line, length);
         } catch (MalformedException malformed) {
-            receiveMalformed(malformed, answers);
+            refuse(malformed.id, answers, NackCode.MALFORMED, malformed.reason());
             return;
         }
         receive(message, answers);
     }
 
-    /** Takes one message of a link. */
     public void receive(final GeneralMessage message, final AnswerSink answers) {
         addOne("received");
         if (isRepeated(message, answers)) {
@@ -74,11 +73,6 @@ public final class CommandReceiver {
         executor.execute(command, (handlers, fault) -> conclude(message, answers, handlers, fault));
     }
 
-    /** Counts a line that is not a General Message; rejects it if its id is readable. */
-    public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
-        refuse(malformed.id, answers, NackCode.MALFORMED, malformed.reason());
-    }
-
     /**
      * Returns the number of messages with an outcome: {@code received}, {@code repeated} or the
      * word of a {@link NackCode}.
@@ -100,8 +94,8 @@ public final class CommandReceiver {
             return false;
         }
         AnswerCache.Entry known = memory(answers).add(message, loop.nowMs());
-        if (known != null && known.answer() != null) {
-            answers.answer(known.answer());
+        if (known != null && known.answer != null) {
+            answers.answer(known.answer);
         }
         return known != null;
     }

@@ -9,7 +9,6 @@ public final class CommandRegistry {
     private final Map<String, CommandReader> readers = new HashMap<>();
     private final Map<String, String> primaryNames = new HashMap<>();
 
-    /** Creates an empty registry. */
     public CommandRegistry() {
     }
 
@@ -33,7 +32,6 @@ public final class CommandRegistry {
         readers.put(name, reader);
     }
 
-    /** Returns whether a name or alias is known. */
     public boolean knows(String name) {
         return primaryNames.containsKey(name);
     }

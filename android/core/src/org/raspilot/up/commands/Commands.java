@@ -1,7 +1,6 @@
 package org.raspilot.up.commands;
 
 import java.util.Arrays;
-import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -39,7 +38,6 @@ public final class Commands {
     private Commands() {
     }
 
-    /** Registers all of them. */
     static void register(CommandRegistry registry) {
         registry.register(ACK, rule(fields -> fields.text("id", GeneralMessage.MAX_ID_LENGTH)));
         registry.register(ALTITUDE, rule(fields -> {
@@ -114,7 +112,6 @@ public final class Commands {
         return of(FLIGHT_MODE, "mode", mode);
     }
 
-    /** Creates the request for the active gains. */
     public static BaseCommand pidsRequest() {
         return of(PIDS, "request", true);
     }
@@ -144,7 +141,6 @@ public final class Commands {
         return BUILTIN.read(new GeneralMessage(name, data));
     }
 
-    /** What validates the fields of a Command. */
     private interface Rule {
         void check(CommandFields fields);
     }

@@ -4,20 +4,15 @@ import java.util.Locale;
 
 /** The type of a Command's field, as in the catalogue. */
 public enum FieldType {
-    /** True or false. */
     BOOLEAN,
-    /** A whole number. */
     INTEGER,
-    /** A number. */
     NUMBER,
-    /** A text. */
     TEXT,
     /** An object of further fields; its contents are not described. */
     OBJECT,
     /** A list; its contents are not described. */
     LIST;
 
-    /** Returns the name in the catalogue. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }

@@ -47,8 +47,8 @@ public final class GainSet {
     /** Returns the set in the form of the wire; nothing is rounded. */
     public Map<String, Object> toData() {
         Map<String, Object> data = new LinkedHashMap<>();
-        put(data, "ratePIDs", loopData(rate));
-        put(data, "stabPIDs", loopData(stabilize));
+        data.put("ratePIDs", loopData(rate));
+        data.put("stabPIDs", loopData(stabilize));
         return data;
     }
 
@@ -92,26 +92,16 @@ public final class GainSet {
     }
 
     private static Map<String, Object> loopData(LoopGains loop) {
-        if (loop == null) {
-            return null;
-        }
         Map<String, Object> data = new LinkedHashMap<>();
-        put(data, "ailerons", gainsData(loop.ailerons));
-        put(data, "elevator", gainsData(loop.elevator));
-        put(data, "rudder", gainsData(loop.rudder));
+        data.put("ailerons", gainsData(loop.ailerons));
+        data.put("elevator", gainsData(loop.elevator));
+        if (loop.rudder != null) {
+            data.put("rudder", gainsData(loop.rudder));
+        }
         return data;
     }
 
-    private static void put(Map<String, Object> data, String key, Map<String, Object> value) {
-        if (value != null) {
-            data.put(key, value);
-        }
-    }
-
     private static Map<String, Object> gainsData(Gains gains) {
-        if (gains == null) {
-            return null;
-        }
         Map<String, Object> data = new LinkedHashMap<>();
         data.put("p", gains.p);
         data.put("i", gains.i);

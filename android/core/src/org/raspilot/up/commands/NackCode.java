@@ -38,18 +38,7 @@ public enum NackCode {
     // schema end
     ;
 
-    /** Returns the word on the wire. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
-    }
-
-    /** Returns the code with that name, or null if unknown. */
-    public static NackCode ofWord(String word) {
-        for (NackCode code : values()) {
-            if (code.word().equals(word)) {
-                return code;
-            }
-        }
-        return null;
     }
 }

@@ -13,7 +13,6 @@ import java.util.Set;
  */
 public final class Age {
     private final boolean isKnown;
-    /** Whether the link that delivered the frame is gone. */
     public final boolean isLinkLost;
     private final long receivedMs;
     /** The known part of the frame's transit time, ms. */
@@ -34,17 +33,12 @@ public final class Age {
         return new Age(false, true, 0, 0, Collections.emptyMap());
     }
 
-    /**
-     * Returns the age of a frame received at {@code receivedMs} after {@code wayMs} in transit.
-     *
-     * @param onBoardMs the known ages of readings when the frame was made
-     */
+    /** Returns the age of a frame with the known ages of readings when it was made. */
     static Age ofFrame(long receivedMs, long wayMs, Map<String, Double> onBoardMs) {
         final Map<String, Double> copy = new HashMap<>(onBoardMs);
         return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
     }
 
-    /** Returns this age with another transit time of the frame. */
     Age withTransit(long anotherMs) {
         return new Age(isKnown, isLinkLost, receivedMs, Math.max(0, anotherMs), onBoardMs);
     }
@@ -98,6 +92,12 @@ public final class Age {
         final Long age = readingMs(reading, nowMs);
         final Long limit = TelemetrySchema.STALE_MS.get(reading);
         return age != null && age > (limit == null ? TelemetrySchema.SILENT_MS : limit);
+    }
+
+    /** Returns for how long something has been so: whole seconds, as hundredths would only flicker. */
+    public static String agoText(long agoMs) {
+        final long wholeMs = Math.max(0, agoMs) / 1000 * 1000;
+        return wholeMs < 100000 ? wholeMs / 1000 + " s" : text(wholeMs);
     }
 
     /**

@@ -13,7 +13,6 @@ import java.util.Map;
 public final class Alarms {
     /** A snapshot of the alarms. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The alarms that are on, by kind, unmodifiable. */
         public final List<Alarm> active;
@@ -23,17 +22,6 @@ public final class Alarms {
             this.active = active;
         }
 
-        /** Returns whether an active alarm should sound and vibrate. */
-        public boolean isLoud() {
-            for (Alarm each : active) {
-                if (each.isLoud()) {
-                    return true;
-                }
-            }
-            return false;
-        }
-
-        /** Returns whether an alarm of that kind is active. */
         public boolean has(String kind) {
             for (Alarm each : active) {
                 if (each.kind.equals(kind)) {
@@ -51,7 +39,6 @@ public final class Alarms {
     Alarms() {
     }
 
-    /** Returns the limit of the alarm of that code. */
     public static double limit(String code) {
         return TelemetrySchema.LIMITS.get(code);
     }

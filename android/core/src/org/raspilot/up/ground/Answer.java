@@ -56,9 +56,13 @@ public final class Answer {
         return new Answer(Outcome.REFUSED, name, code, reason, null, null);
     }
 
-    /** Returns whether the aircraft executed it. */
     public boolean isAck() {
         return outcome == Outcome.ACK;
+    }
+
+    /** Returns the reason, or its code where it has none; possibly an empty text. */
+    public String why() {
+        return reason.isEmpty() ? code : reason;
     }
 
     /** Returns a sentence for the pilot, without a full stop. */
@@ -66,13 +70,7 @@ public final class Answer {
         final String done = name + ": " + outcome.text();
         final String after = roundTripMs == null || !isAck() ? done
                 : String.format(Locale.ROOT, "%s after %d ms", done, roundTripMs);
-        final String why = reason.isEmpty() ? code : reason;
-        return why.isEmpty() ? after : after + ": " + why;
-    }
-
-    @Override
-    public String toString() {
-        return sentence();
+        return why().isEmpty() ? after : after + ": " + why();
     }
 
     /** Receives the outcome of a Command: once, on the loop, possibly before the call returns. */

@@ -9,30 +9,28 @@ import org.raspilot.up.loop.Loop;
 final class CommandService {
     private final Loop loop;
     private final GroundLink link;
-    private final CommandGate gate;
+    private final GroundSettings settings;
     private final PendingCommands answers;
     private final ShownBeacons beacons;
 
-    CommandService(Loop loop, GroundLink link, CommandGate gate, PendingCommands answers,
+    CommandService(Loop loop, GroundLink link, GroundSettings settings, PendingCommands answers,
             ShownBeacons beacons) {
         this.loop = loop;
         this.link = link;
-        this.gate = gate;
+        this.settings = settings;
         this.answers = answers;
         this.beacons = beacons;
     }
 
     /**
-     * Sends a Command once.
-     *
-     * @param seen the beacon of the frame that the pilot has seen; null: none
+     * Sends a Command once; {@code seen}: the beacon of the frame that the pilot has seen, or null.
      */
     void send(BaseCommand command, Long seen, AnswerListener listener) {
         final boolean isProtectedRequest = link.facts().isKeyed()
                 && PendingCommands.isRequest(command);
         // A protected request needs a beacon, too, though no pilot has to have seen its frame.
         final Long shown = isProtectedRequest && seen == null ? beacons.newest() : seen;
-        final Answer refused = gate.refusal(command, shown);
+        final Answer refused = refusal(command, shown);
         if (refused != null) {
             listener.onAnswer(refused);
             return;
@@ -54,5 +52,61 @@ final class CommandService {
         } else if (command.name().equals(Commands.TELEMETRY_PERIOD)) {
             link.expectAnotherPeriod();
         }
+    }
+
+    /** Returns why a Command is not sent now; null: it is. */
+    private Answer refusal(BaseCommand command, Long shown) {
+        final Answer refused = ofLink(command);
+        if (refused != null) {
+            return refused;
+        }
+        if (answers.waiting() >= PendingCommands.MAX_WAITING) {
+            return Answer.refused(command.name(), "busy",
+                    "too many Commands wait for their answer");
+        }
+        final LinkStatus facts = link.facts();
+        if (!facts.keyFault().isEmpty()) {
+            return Answer.refused(command.name(), facts.keyFault(),
+                    KeyTexts.fault(facts.keyFault()));
+        }
+        return PendingCommands.isRequest(command) && !facts.isKeyed() ? null
+                : beaconFault(command, shown);
+    }
+
+    private Answer ofLink(BaseCommand command) {
+        final LinkStatus facts = link.facts();
+        switch (CommandGate.ofLink(link.isOpen(), facts.isAircraftOnline,
+                ControlStatus.of(facts, settings.isDirect))) {
+            case NONE:
+                return null;
+            case NO_LINK:
+                return Answer.refused(command.name(), "no_link",
+                        facts.reason.isEmpty() ? "not connected"
+                                : "not connected: " + facts.reason);
+            case NO_AIRCRAFT:
+                return Answer.refused(command.name(), "no_aircraft", "the aircraft "
+                        + settings.aircraft + " is not connected to the proxy");
+            default:
+                return Answer.refused(command.name(), "no_control",
+                        "this ground only listens: request control first");
+        }
+    }
+
+    /** A pilot must see the aircraft's state to command: the screen may hang or show late data. */
+    private Answer beaconFault(BaseCommand command, Long shown) {
+        if (shown == null) {
+            if (beacons.isLegacy() && !command.name().equals(Commands.ARM)
+                    && !command.name().equals(Commands.DISARM)) {
+                // A thesis aircraft's telemetry has no beacons.
+                return null;
+            }
+            return Answer.refused(command.name(), "no_beacon",
+                    "it is only sent with the beacon of telemetry that was seen");
+        }
+        if (!beacons.isFresh(shown, loop.nowMs())) {
+            return Answer.refused(command.name(), "stale", "the telemetry on the screen is older"
+                    + " than " + beacons.limitMs() / 1000 + " s");
+        }
+        return null;
     }
 }

@@ -67,10 +67,8 @@ public final class CommandTexts {
         return text.toString();
     }
 
-    /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
-        final String why = answer.reason.isEmpty() ? answer.code : answer.reason;
         return words + ": " + answer.outcome.text()
-                + (answer.isAck() || why.isEmpty() ? "" : ": " + why);
+                + (answer.isAck() || answer.why().isEmpty() ? "" : ": " + answer.why());
     }
 }

@@ -33,7 +33,6 @@ final class ControlLease {
         }
     }
 
-    /** Requests this seat from now on. */
     void setWanted(ProxyRole seat) {
         wanted = seat;
     }
@@ -44,13 +43,11 @@ final class ControlLease {
         tokens.remove(settings.tokenKey());
     }
 
-    /** Returns the hello that requests the seat. */
     byte[] hello() {
         return Hello.ofGround(settings.aircraft, wanted, wanted == ProxyRole.COMMAND
                 ? token : null);
     }
 
-    /** Takes the answer that accepts this ground. */
     void onAccepted(HelloAnswer answer) {
         facts.role = answer.role;
         if (answer.role == ProxyRole.COMMAND) {
@@ -58,7 +55,6 @@ final class ControlLease {
         }
     }
 
-    /** Takes a line of the proxy. */
     void onControl(ControlLine said) {
         switch (said.kind) {
             case SEAT_COMMAND:

@@ -5,7 +5,6 @@ import org.raspilot.up.wire.ProxyRole;
 
 /** The state of the seat that commands. */
 public enum ControlStatus {
-    /** No link. */
     UNKNOWN,
     /** This ground commands; always so on a direct link, which has no seats. */
     OURS,

@@ -2,8 +2,6 @@ package org.raspilot.up.ground;
 
 /** An event in plain words. Immutable. */
 public final class Event {
-    /** Its number, counting up from 1. */
-    public final long number;
     /** When it happened by the loop's clock, ms. */
     public final long atMs;
     public final EventLevel level;
@@ -12,16 +10,10 @@ public final class Event {
     /** What happened, safe to show, without a full stop. */
     public final String text;
 
-    Event(long number, long atMs, EventLevel level, String code, String text) {
-        this.number = number;
+    Event(long atMs, EventLevel level, String code, String text) {
         this.atMs = atMs;
         this.level = level;
         this.code = code;
         this.text = text;
-    }
-
-    @Override
-    public String toString() {
-        return level + " " + text;
     }
 }

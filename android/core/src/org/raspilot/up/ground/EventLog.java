@@ -14,7 +14,6 @@ public final class EventLog {
 
     /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The events from the oldest to the newest, unmodifiable. */
         public final List<Event> events;
@@ -32,7 +31,7 @@ public final class EventLog {
     /** Adds an event; {@code code} as in {@link Event#code}. */
     public void add(long atMs, EventLevel level, String code, String text) {
         number++;
-        events.add(new Event(number, atMs, level, code, SafeText.of(text, MAX_TEXT_LENGTH)));
+        events.add(new Event(atMs, level, code, SafeText.of(text, MAX_TEXT_LENGTH)));
         if (events.size() > MAX_ENTRIES) {
             events.remove();
         }

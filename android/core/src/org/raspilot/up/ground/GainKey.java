@@ -10,11 +10,9 @@ import org.raspilot.up.commands.GainSet;
 
 /** Names one gain: loop, axis and term. Immutable. */
 public final class GainKey {
-    /** The loops under their names on the wire: rate, stabilize. */
-    public static final List<String> LOOPS = list("ratePIDs", "stabPIDs");
-    /** The axes under their names on the wire. */
-    public static final List<String> AXES = list("ailerons", "elevator", "rudder");
-    public static final List<String> TERMS = list("p", "i", "d");
+    private static final String[] LOOPS = {"ratePIDs", "stabPIDs"};
+    private static final String[] AXES = {"ailerons", "elevator", "rudder"};
+    private static final String[] TERMS = {"p", "i", "d"};
     /** All 18 gains: loops, in them axes, in them terms. */
     public static final List<GainKey> ALL = all();
 
@@ -33,17 +31,16 @@ public final class GainKey {
 
     /** Returns the loop's name on the wire. */
     public String loop() {
-        return LOOPS.get(loop);
+        return LOOPS[loop];
     }
 
-    /** Returns the axis' name on the wire. */
     public String axis() {
-        return AXES.get(axis);
+        return AXES[axis];
     }
 
     /** Returns {@code p}, {@code i} or {@code d}. */
     public String term() {
-        return TERMS.get(term);
+        return TERMS[term];
     }
 
     /** Returns {@code ratePIDs.ailerons.p}. */
@@ -66,10 +63,7 @@ public final class GainKey {
         if (set == null) {
             return null;
         }
-        final LoopGains inLoop = loopOf(set);
-        if (inLoop == null) {
-            return null;
-        }
+        final LoopGains inLoop = loop == 0 ? set.rate : set.stabilize;
         final Gains gains =
                 axis == 0 ? inLoop.ailerons : axis == 1 ? inLoop.elevator : inLoop.rudder;
         if (gains == null) {
@@ -78,26 +72,11 @@ public final class GainKey {
         return term == 0 ? gains.p : term == 1 ? gains.i : gains.d;
     }
 
-    @Override
-    public String toString() {
-        return path();
-    }
-
-    private LoopGains loopOf(GainSet set) {
-        return loop == 0 ? set.rate : set.stabilize;
-    }
-
     private static List<GainKey> all() {
         final List<GainKey> keys = new ArrayList<>();
         for (int each = 0; each < 18; each++) {
             keys.add(new GainKey(each / 9, each / 3 % 3, each % 3));
         }
         return Collections.unmodifiableList(keys);
-    }
-
-    private static List<String> list(String... words) {
-        final List<String> copy = new ArrayList<>();
-        Collections.addAll(copy, words);
-        return Collections.unmodifiableList(copy);
     }
 }

@@ -27,7 +27,6 @@ public final class GainsService {
 
     /** A snapshot of the gains. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The last gains that the aircraft reported; null: none so far. */
         public final GainSet flying;
@@ -69,7 +68,6 @@ public final class GainsService {
         this.sender = sender;
     }
 
-    /** Returns a number that rises with each change. */
     public long version() {
         return version;
     }
@@ -89,9 +87,8 @@ public final class GainsService {
     }
 
     /**
-     * Sets the gains; a set that is not whole or out of 0 to 50 is refused here.
-     *
-     * @param shownBeacon the beacon of the frame that the screen shows; null: none
+     * Sets the gains, with the beacon of the frame on the screen; a set that is not whole or out of
+     * 0 to 50 is refused here.
      */
     public void set(GainSet gains, Long shownBeacon, AnswerListener listener) {
         transmit(gains, shownBeacon, listener, false);
@@ -185,7 +182,7 @@ public final class GainsService {
 
     private void record(GainSet before, GainSet after, Answer answer, boolean isUndo) {
         number++;
-        history.add(new GainsEntry(number, loop.nowMs(), before, after, answer));
+        history.add(new GainsEntry(number, before, after, answer));
         if (history.size() > MAX_ENTRIES) {
             history.remove();
         }
@@ -246,22 +243,18 @@ public final class GainsService {
     public static final class GainsEntry {
         /** Its number, counting up from 1. */
         public final int number;
-        /** When its answer came, by the loop's clock, ms. */
-        public final long atMs;
         /** What flew before; null: not known. */
         public final GainSet before;
         public final GainSet after;
         public final Answer answer;
 
-        GainsEntry(int number, long atMs, GainSet before, GainSet after, Answer answer) {
+        GainsEntry(int number, GainSet before, GainSet after, Answer answer) {
             this.number = number;
-            this.atMs = atMs;
             this.before = before;
             this.after = after;
             this.answer = answer;
         }
 
-        /** Returns the gains in which the two differ. */
         public List<GainChange> changes() {
             return GainsService.difference(before, after);
         }

@@ -57,8 +57,9 @@ final class GroundLink implements UpSocketListener {
         this.settings = settings;
         this.listener = listener;
         claim = new ControlLease(settings, tokens, facts);
-        quiet = new SilenceWatchdog(loop, new Quiet());
-        security = new LinkSecurity(loop, settings.pairing, facts, new Secured());
+        quiet = new SilenceWatchdog(loop, facts, forMs -> drop(
+                "silent", "nothing came for " + Math.round(forMs / 1000.0) + " s"));
+        security = new LinkSecurity(loop, settings.pairing, facts, this);
         facts.isTls = settings.tls != null;
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
@@ -73,10 +74,6 @@ final class GroundLink implements UpSocketListener {
         return facts;
     }
 
-    long tooLong() {
-        return socket.counters().tooLong;
-    }
-
     /** Returns whether messages can go now. */
     boolean isOpen() {
         return facts.state == LinkState.OPEN;
@@ -87,7 +84,6 @@ final class GroundLink implements UpSocketListener {
             return;
         }
         claim.reset();
-        facts.failures = 0;
         facts.rejection = "";
         facts.enter(LinkState.CONNECTING, loop.nowMs(), "", "");
         socket.start();
@@ -115,8 +111,18 @@ final class GroundLink implements UpSocketListener {
         return sealed != null && sendPlain(sealed);
     }
 
-    private boolean sendPlain(byte[] line) {
+    /** Sends a line as it is. */
+    boolean sendPlain(byte[] line) {
         return isOpen() && socket.send(line);
+    }
+
+    /** Takes the aircraft's clock, authentic and read between two times here, ms. */
+    void onClock(double clockMs, long fromMs, long toMs) {
+        listener.onClock(clockMs, fromMs, toMs);
+    }
+
+    private void drop(String code, String reason) {
+        socket.drop(code, reason);
     }
 
     /** Called when the period of telemetry may change. */
@@ -142,13 +148,6 @@ final class GroundLink implements UpSocketListener {
         return sendPlain(ControlLine.seatRequest());
     }
 
-    void dismissRequest() {
-        if (facts.requestedBy != null) {
-            facts.requestedBy = null;
-            listener.onLink();
-        }
-    }
-
     boolean giveControl(int to) {
         return ownsControl() && to >= 0 && sendPlain(ControlLine.seatGive(to));
     }
@@ -168,7 +167,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     @Override
-    public void onConnected(UpSocket connected) {
+    public void onConnected() {
         final long nowMs = loop.nowMs();
         connectTookMs = nowMs - connectingMs;
         quiet.start();
@@ -187,15 +186,13 @@ final class GroundLink implements UpSocketListener {
     }
 
     @Override
-    public void onReceived(UpSocket from, byte[] bytes, int length) {
+    public void onReceived(byte[] bytes, int length) {
         quiet.onLine();
         if (ControlLine.isControlLine(bytes, length)) {
-            if (settings.isDirect) {
-                facts.strangeControl++;
-            } else if (isGreeted) {
-                onControl(ControlLine.read(bytes, length));
-            } else {
+            if (!isGreeted) {
                 onHelloAnswer(HelloAnswer.read(bytes, length));
+            } else if (!settings.isDirect) {
+                onControl(ControlLine.read(bytes, length));
             }
         } else if (!isGreeted) {
             socket.drop("not_a_proxy", "the other side does not answer a hello: not a Ground"
@@ -206,25 +203,24 @@ final class GroundLink implements UpSocketListener {
     }
 
     @Override
-    public void onLost(UpSocket lost, String reason) {
+    public void onLost(String reason) {
         final boolean wasOpen = isOpen();
         final LinkState next =
                 facts.state == LinkState.STOPPED ? LinkState.STOPPED : LinkState.WAITING;
-        close(next, lost.status().code, reason);
+        close(next, socket.status().code, reason);
         if (wasOpen) {
             listener.onLost(reason);
         }
     }
 
     @Override
-    public void onStatus(UpSocket changed) {
+    public void onStatus() {
         final UpSocketStatus status = socket.status();
         if (status == judged || facts.state == LinkState.STOPPED) {
             return;
         }
         judged = status;
         if (status.state == UpSocketStatus.State.WAITING) {
-            facts.failures++;
             if (facts.state != LinkState.WAITING) {
                 close(LinkState.WAITING, status.code, status.sentence);
             }
@@ -247,14 +243,13 @@ final class GroundLink implements UpSocketListener {
     }
 
     private void onHelloAnswer(HelloAnswer answer) {
-        if (answer == null) {
-            facts.strangeControl++;
-        } else if (!answer.isAccepted()) {
+        if (answer == null || answer.role == ProxyRole.AIR) {
+            return;
+        }
+        if (!answer.isAccepted()) {
             facts.rejection = answer.code;
             socket.drop("hello_refused", "the proxy refuses: "
                     + SafeText.of(answer.reason, 300) + " (" + answer.code + ")");
-        } else if (answer.role == ProxyRole.AIR) {
-            facts.strangeControl++;
         } else {
             isGreeted = true;
             opened(Math.min(connectTookMs, loop.nowMs() - helloMs));
@@ -265,9 +260,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     private void onControl(ControlLine said) {
-        if (said == null) {
-            facts.strangeControl++;
-        } else {
+        if (said != null) {
             claim.onControl(said);
             if (said.kind == ControlLine.Kind.AIRCRAFT_ONLINE) {
                 security.renew();
@@ -289,10 +282,7 @@ final class GroundLink implements UpSocketListener {
             message = GeneralMessage.read(body, body.length);
         } catch (MalformedException fault) {
             if (fault.code.equals(PackedTelemetry.UNKNOWN_KEY)) {
-                facts.keyless++;
                 requestKey();
-            } else {
-                facts.malformed++;
             }
             return;
         }
@@ -323,8 +313,6 @@ final class GroundLink implements UpSocketListener {
         facts.enter(LinkState.OPEN, loop.nowMs(), "", "");
         facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
-        facts.failures = 0;
-        facts.connections++;
         security.start();
         if (settings.isDirect) {
             listener.onOpened();
@@ -341,31 +329,6 @@ final class GroundLink implements UpSocketListener {
         facts.enter(state, loop.nowMs(), code, reason);
     }
 
-    private final class Secured implements LinkSecurity.Owner {
-        @Override
-        public void send(byte[] line) {
-            sendPlain(line);
-        }
-
-        @Override
-        public void onClock(double clockMs, long fromMs, long toMs) {
-            listener.onClock(clockMs, fromMs, toMs);
-        }
-    }
-
-    private final class Quiet implements SilenceWatchdog.Owner {
-        @Override
-        public Boolean isAircraftOnline() {
-            // Without a session the aircraft sends nothing but replies to hellos.
-            return facts.keyFault().isEmpty() ? facts.isAircraftOnline : Boolean.FALSE;
-        }
-
-        @Override
-        public void onQuiet(long forMs) {
-            socket.drop("silent", "nothing came for " + Math.round(forMs / 1000.0) + " s");
-        }
-    }
-
     /** Receives the events and messages of a {@link GroundLink}. */
     interface LinkListener {
         /** Takes a message from the aircraft. */
@@ -377,7 +340,6 @@ final class GroundLink implements UpSocketListener {
         /** Called when the link is open: messages can be sent. */
         void onOpened();
 
-        /** Called when an open link is lost. */
         void onLost(String reason);
 
         /** Called when a part of the link's state has changed. */

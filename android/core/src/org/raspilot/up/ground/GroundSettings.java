@@ -1,6 +1,5 @@
 package org.raspilot.up.ground;
 
-import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.net.SettingRules;
 import org.raspilot.up.security.Pairing;
 import org.raspilot.up.tls.TlsIdentity;
@@ -8,7 +7,6 @@ import org.raspilot.up.wire.ProxyRole;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {
-    /** The ground port of a Ground Station Proxy. */
     public static final int PROXY_PORT = 3004;
 
     /** The name or address of the other side. */
@@ -31,7 +29,7 @@ public final class GroundSettings {
      * @param aircraft which of the proxy's aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}
      * @param seat COMMAND or LISTEN: the seat to request when the link opens
      * @param isDirect send no hello: an aircraft's listener in the same network
-     * @throws InvalidSettingException with one sentence that names the setting
+     * @throws IllegalArgumentException with one sentence that names the setting
      */
     public GroundSettings(String host, int port, String aircraft, ProxyRole seat,
             boolean isDirect) {
@@ -42,9 +40,9 @@ public final class GroundSettings {
             boolean isDirect, Pairing pairing, TlsIdentity tls) {
         SettingRules.host("host", host == null ? "" : host.trim());
         SettingRules.port("port", port);
-        SettingRules.aircraft("aircraft's name", aircraft);
+        SettingRules.aircraft(aircraft);
         if (seat != ProxyRole.COMMAND && seat != ProxyRole.LISTEN) {
-            throw new InvalidSettingException("seat", "must be to command or to listen");
+            throw new IllegalArgumentException("the seat must be to command or to listen");
         }
         this.host = host.trim();
         this.port = port;
@@ -64,11 +62,6 @@ public final class GroundSettings {
     /** Returns these settings with TLS alone; null: plain TCP. */
     public GroundSettings withTls(TlsIdentity identity) {
         return new GroundSettings(host, port, aircraft, role, isDirect, pairing, identity);
-    }
-
-    /** Returns host and port as people write them. */
-    public String address() {
-        return host.indexOf(':') >= 0 ? "[" + host + "]:" + port : host + ":" + port;
     }
 
     /** Returns the key of this aircraft's token in a {@link TokenStore}. */

@@ -32,7 +32,6 @@ public final class GroundSide implements TelemetrySource {
     private final TelemetryStream stream = new TelemetryStream();
     private final ShownBeacons beacons = new ShownBeacons();
     private final PendingCommands answers;
-    private final CommandGate gate;
     private final CommandService desk;
     private final GainsService gains;
     private final HomeEstimator home = new HomeEstimator();
@@ -62,8 +61,7 @@ public final class GroundSide implements TelemetrySource {
         this.listener = listener;
         link = new GroundLink(loop, settings, tokens, new Links(), random);
         answers = new PendingCommands(loop, random);
-        gate = new CommandGate(loop, settings, link, answers, beacons);
-        desk = new CommandService(loop, link, gate, answers, beacons);
+        desk = new CommandService(loop, link, settings, answers, beacons);
         gains = new GainsService(loop, (command, shownBeacon, answered) ->
                 transmit(command, shownBeacon, answered));
     }
@@ -96,12 +94,7 @@ public final class GroundSide implements TelemetrySource {
     }
 
     public GroundStatus status() {
-        final long nowMs = loop.nowMs();
-        final Telemetry newest = stream.newest();
-        final LinkStatus facts = link.facts();
-        return new GroundStatus(facts, settings.isDirect, stream.rateHz(nowMs), newest, nowMs,
-                home.home(), new GroundCounters(facts, stream, link.tooLong(),
-                        answers.unmatched()));
+        return new GroundStatus(link.facts(), settings.isDirect, stream, loop.nowMs());
     }
 
     @Override
@@ -109,7 +102,6 @@ public final class GroundSide implements TelemetrySource {
         return stream.newest();
     }
 
-    /** Returns the track of the aircraft. */
     public Track track() {
         return track;
     }
@@ -124,16 +116,6 @@ public final class GroundSide implements TelemetrySource {
 
     public GainsService gains() {
         return gains;
-    }
-
-    /** Called when the screen has drawn the frame with that beacon; null: without one. */
-    public void onShown(Long beacon) {
-        beacons.onShown(beacon);
-    }
-
-    /** Sends a Command with the newest beacon that was {@link #onShown}. */
-    public void send(BaseCommand command, AnswerListener answered) {
-        send(command, beacons.newestShown(), answered);
     }
 
     /**
@@ -173,11 +155,6 @@ public final class GroundSide implements TelemetrySource {
         return link.releaseControl();
     }
 
-    /** Discards the request for the seat: the pilot keeps it. */
-    public void dismissControlRequest() {
-        link.dismissRequest();
-    }
-
     private void transmit(final BaseCommand command, Long shownBeacon,
             final AnswerListener answered) {
         final GainSet set = command.data().containsKey("pids")
@@ -208,10 +185,11 @@ public final class GroundSide implements TelemetrySource {
         judge.update(frame, status(), nowMs);
         executor.executeCommand(new BaseCommand(message));
         listener.onTelemetry(frame);
-        if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
+        if (wasSilent != frame.age.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
-        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)
+        final ControlStatus control = ControlStatus.of(link.facts(), settings.isDirect);
+        if (control == ControlStatus.OURS && !frame.age.isSilent(nowMs)
                 && link.facts().keyFault().isEmpty()) {
             gains.onTick();
         }
@@ -221,7 +199,7 @@ public final class GroundSide implements TelemetrySource {
     /** Checks again when this frame expires, so that silence is reported without another event. */
     private void awaitSilence(Telemetry frame, long nowMs) {
         silence.cancel();
-        final Long ageMs = frame.ageMs(nowMs);
+        final Long ageMs = frame.age.frameMs(nowMs);
         if (ageMs != null && ageMs <= TelemetrySchema.SILENT_MS) {
             silence = loop.schedule(TelemetrySchema.SILENT_MS + 1 - ageMs, () -> check(true));
         }

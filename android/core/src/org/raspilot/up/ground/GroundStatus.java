@@ -5,8 +5,6 @@ import org.raspilot.up.wire.ProxyRole;
 /** A snapshot of link, seat and aircraft. Immutable. */
 public final class GroundStatus {
     public final LinkState link;
-    /** Since when the link is so, by the loop's clock, ms. */
-    public final long sinceMs;
     /** The reason for a missing link as a stable word: {@code closed silent hello_timeout ...}. */
     public final String code;
 
@@ -27,8 +25,6 @@ public final class GroundStatus {
     public final Boolean isAircraftOnline;
     /** The time to the other side and back, ms, by hello or answer; null: not known. */
     public final Double roundTripMs;
-    /** How many attempts failed since the last good connection. */
-    public final int failures;
     /** The frames per second, or null if too few arrive. */
     public final Double rateHz;
     /** Whether no displayed value can be trusted to be current. */
@@ -41,18 +37,20 @@ public final class GroundStatus {
     public final String keyFault;
     /** The name of this device's key for the aircraft; empty: it has none. */
     public final String keyName;
-    /** Whether the connection to the other side is by TLS. */
     public final boolean isTls;
     /** Whether gains may be set in flight, or null if unknown. */
     public final Boolean tuneInFlight;
-    /** The aircraft's home; null: not known. */
-    public final Home home;
-    public final GroundCounters counters;
+    /** How many frames of telemetry came since the creation. */
+    public final long frames;
+    /** How many frames were sent, by the beacons' numbers, and did not come. */
+    public final long lostFrames;
+    /** How many lines the key did not authenticate. */
+    public final long refused;
+    private final long unprotected;
 
-    GroundStatus(LinkStatus facts, boolean isDirect, Double rateHz, Telemetry newest, long nowMs,
-            Home home, GroundCounters counters) {
+    GroundStatus(LinkStatus facts, boolean isDirect, TelemetryStream stream, long nowMs) {
+        final Telemetry newest = stream.newest();
         link = facts.state;
-        sinceMs = facts.sinceMs;
         code = facts.code;
         reason = facts.reason;
         rejection = facts.rejection;
@@ -63,20 +61,20 @@ public final class GroundStatus {
         requestedBy = facts.requestedBy;
         isAircraftOnline = facts.isAircraftOnline;
         roundTripMs = facts.roundTripMs;
-        failures = facts.failures;
-        this.rateHz = rateHz;
-        isSilent = newest.isSilent(nowMs);
+        rateHz = stream.rateHz(nowMs);
+        isSilent = newest.age.isSilent(nowMs);
         isLate = newest.age.isLate(nowMs);
         commandRole = facts.keyRole.isEmpty() ? newest.text("ground.role") : facts.keyRole;
         keyFault = facts.keyFault();
         keyName = facts.keyName;
         isTls = facts.isTls;
         tuneInFlight = newest.flag("ground.tune_in_flight");
-        this.home = home;
-        this.counters = counters;
+        frames = stream.frames();
+        lostFrames = stream.lost();
+        refused = facts.refused;
+        unprotected = facts.unprotected;
     }
 
-    /** Returns whether messages can be sent. */
     public boolean isOpen() {
         return link == LinkState.OPEN;
     }
@@ -144,21 +142,19 @@ public final class GroundStatus {
         if (!isOffline && !keyFault.isEmpty()) {
             return securityText();
         }
-        if (!isOffline && keyName.isEmpty() && counters.unprotected > 0) {
+        if (!isOffline && keyName.isEmpty() && unprotected > 0) {
             return KeyTexts.fault("key_missing");
         }
         final String code = silenceCode();
-        return code.equals("silent") && counters.frames == 0 ? "connected, no telemetry yet"
+        return code.equals("silent") && frames == 0 ? "connected, no telemetry yet"
                 : TelemetrySchema.EVENTS.get(code).text;
     }
 
     /** How far the connection to the other side is. */
     public enum LinkState {
-        /** Not started, or stopped. */
         STOPPED,
         /** In progress: connecting, or waiting for the answer to the hello. */
         CONNECTING,
-        /** Messages can go. */
         OPEN,
         /** Lost or refused: it is tried again after a little wait. */
         WAITING

@@ -20,7 +20,6 @@ final class KeyTexts {
     private KeyTexts() {
     }
 
-    /** Returns the reason for a code. */
     static String fault(String code) {
         final String text = FAULTS.get(code);
         return text == null ? code : text;

@@ -28,29 +28,20 @@ final class LinkSecurity {
 
     private final Loop loop;
     private final LinkStatus facts;
-    private final Owner owner;
+    private final GroundLink link;
     private final GroundSession session;
     private Cancellable timer = Cancellable.DONE;
     private boolean isStarted;
     private long sentMs;
 
-    interface Owner {
-        /** Sends a line. */
-        void send(byte[] line);
-
-        /** Called after an answer: the aircraft's clock, read between two times here, ms. */
-        void onClock(double clockMs, long fromMs, long toMs);
-    }
-
-    LinkSecurity(Loop loop, Pairing pairing, LinkStatus facts, Owner owner) {
+    LinkSecurity(Loop loop, Pairing pairing, LinkStatus facts, GroundLink link) {
         this.loop = loop;
         this.facts = facts;
-        this.owner = owner;
+        this.link = link;
         session = pairing == null ? null : new GroundSession(pairing);
         facts.keyName = pairing == null ? "" : pairing.name;
     }
 
-    /** Begins on an open connection. */
     void start() {
         if (session != null) {
             isStarted = true;
@@ -116,7 +107,7 @@ final class LinkSecurity {
 
     private void hello() {
         sentMs = loop.nowMs();
-        owner.send(BinaryLine.toLine(session.hello()));
+        link.sendPlain(BinaryLine.toLine(session.hello()));
         schedule(ANSWER_MS, () -> {
             session.forgetHello();
             hello();
@@ -138,7 +129,7 @@ final class LinkSecurity {
         facts.keyRole = said.role;
         facts.keyRefusal = "";
         schedule(nowMs - sentMs > SLOW_MS ? AGAIN_MS : RENEW_MS, () -> hello());
-        owner.onClock(said.clockMs, sentMs, nowMs);
+        link.onClock(said.clockMs, sentMs, nowMs);
     }
 
     private void schedule(long delayMs, Runnable call) {

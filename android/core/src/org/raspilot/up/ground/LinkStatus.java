@@ -18,13 +18,7 @@ final class LinkStatus {
     Integer requestedBy;
     Boolean isAircraftOnline;
     Double roundTripMs;
-    int failures;
     boolean isTls;
-    long connections;
-    long malformed;
-    long strangeControl;
-    /** Packed frames whose key was not received here. */
-    long keyless;
     /** Lines that the key does not authenticate, or that came before. */
     long refused;
     /** Plain lines on a link with a key, or protected ones without a key. */

@@ -54,9 +54,7 @@ public final class OneWayDelay {
     }
 
     /**
-     * Takes a message that arrives at {@code arrivalMs}; returns its delay in ms.
-     *
-     * @param stamp its sender's clock in ms when it was sent; if null, the result is null
+     * Returns the delay of a message in ms; null without {@code stamp}, its sender's clock in ms.
      */
     public Double update(Double stamp, double arrivalMs) {
         isReset = false;

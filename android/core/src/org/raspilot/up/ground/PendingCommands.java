@@ -19,7 +19,6 @@ import org.raspilot.up.wire.SafeText;
 final class PendingCommands {
     /** Timeout of an answer, ms; a later answer is ignored. */
     static final long LIMIT_MS = 3000;
-    /** Maximum number of Commands that wait for an answer. */
     static final int MAX_WAITING = 32;
 
     private static final int MAX_REASON_LENGTH = 500;
@@ -58,21 +57,14 @@ final class PendingCommands {
     private final Random random;
     private final Map<String, Sent> sent = new LinkedHashMap<>();
     private long number;
-    private long unmatched;
 
     PendingCommands(Loop loop, Random random) {
         this.loop = loop;
         this.random = random;
     }
 
-    /** Returns how many Commands wait for their answer. */
     int waiting() {
         return sent.size();
-    }
-
-    /** Returns how many answers were of no Command that waits: other grounds', or late ones. */
-    long unmatched() {
-        return unmatched;
     }
 
     /** Returns the id to send a Command with; the listener receives its outcome. */
@@ -106,9 +98,8 @@ final class PendingCommands {
         if (isAck || message.name.equals(Commands.NACK)) {
             final Object id = message.data.get("id");
             final Sent found = id instanceof String ? sent.get(id) : null;
-            if (found == null) {
-                unmatched++;
-            } else {
+            // Others are late, or those of other grounds.
+            if (found != null) {
                 onAnswer(found, isAck, message.data);
             }
             return;

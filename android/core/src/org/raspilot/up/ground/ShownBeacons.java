@@ -3,7 +3,7 @@ package org.raspilot.up.ground;
 import java.util.ArrayDeque;
 import java.util.Iterator;
 
-/** The beacons of received telemetry: whether the pilot has seen the current state. */
+/** The beacons of received telemetry: whether the one that the pilot has seen is fresh. */
 final class ShownBeacons {
     /** A beacon that the aircraft sent longer ago, ms, is stale (docs/protocols.md 4)... */
     private static final long FRESH_MS = 2000;
@@ -23,7 +23,6 @@ final class ShownBeacons {
     }
 
     private final ArrayDeque<Heard> heard = new ArrayDeque<>();
-    private Heard onShown;
     private boolean hasFrames;
     private boolean hasBeacons;
     private long limitMs = FRESH_MS;
@@ -47,22 +46,8 @@ final class ShownBeacons {
     /** Clears all beacons: frames of another connection must be seen again. */
     void onLost() {
         heard.clear();
-        onShown = null;
         hasFrames = false;
         hasBeacons = false;
-    }
-
-    /** Called when the screen has drawn the frame with that beacon; an older one is ignored. */
-    void onShown(Long beacon) {
-        final Heard found = find(beacon);
-        if (found != null && (onShown == null || found.sentMs >= onShown.sentMs)) {
-            onShown = found;
-        }
-    }
-
-    /** Returns the newest beacon that was seen; null: none. */
-    Long newestShown() {
-        return onShown == null ? null : Long.valueOf(onShown.beacon);
     }
 
     /** Returns the beacon of the newest frame, seen or not; null: none. */
@@ -75,7 +60,6 @@ final class ShownBeacons {
         return hasFrames && !hasBeacons;
     }
 
-    /** Returns whether the aircraft would accept that beacon as fresh. */
     boolean isFresh(Long beacon, long nowMs) {
         final Heard found = find(beacon);
         return found != null && nowMs - found.sentMs <= limitMs;

@@ -6,22 +6,21 @@ import org.raspilot.up.loop.Loop;
 /** Notices a connection on which nothing comes for longer than {@link SilenceLimit} allows. */
 final class SilenceWatchdog {
     private final Loop loop;
-    private final Owner owner;
+    private final LinkStatus facts;
+    private final QuietListener listener;
     private final SilenceLimit limit = new SilenceLimit();
     private long receivedAtMs;
-    private Cancellable timer;
+    private Cancellable timer = Cancellable.DONE;
 
-    interface Owner {
-        /** Returns whether the aircraft is connected, or null if unknown. */
-        Boolean isAircraftOnline();
-
+    interface QuietListener {
         /** Called when nothing was received for that time, ms. */
         void onQuiet(long forMs);
     }
 
-    SilenceWatchdog(Loop loop, Owner owner) {
+    SilenceWatchdog(Loop loop, LinkStatus facts, QuietListener listener) {
         this.loop = loop;
-        this.owner = owner;
+        this.facts = facts;
+        this.listener = listener;
     }
 
     void start() {
@@ -31,9 +30,7 @@ final class SilenceWatchdog {
     }
 
     void stop() {
-        if (timer != null) {
-            timer.cancel();
-        }
+        timer.cancel();
     }
 
     void onLine() {
@@ -51,10 +48,12 @@ final class SilenceWatchdog {
     }
 
     private void check() {
-        final long limitMs = limit.limitMs(owner.isAircraftOnline());
+        // Without a session the aircraft sends nothing but replies to hellos.
+        final long limitMs = limit.limitMs(
+                facts.keyFault().isEmpty() ? facts.isAircraftOnline : Boolean.FALSE);
         final long restMs = receivedAtMs + limitMs - loop.nowMs();
         if (restMs <= 0) {
-            owner.onQuiet(limitMs);
+            listener.onQuiet(limitMs);
             return;
         }
         timer = loop.schedule(Math.min(restMs, SilenceLimit.MIN_MS), () -> check());

@@ -41,12 +41,8 @@ public final class Telemetry {
     }
 
     /**
-     * Creates a frame.
-     *
-     * @param data the Command's fields as JSON values; copied
-     * @param beacon the aircraft's number of the frame, or null
-     * @param receivedMs the loop's time of reception
-     * @param wayMs the known part of the transit time
+     * Creates a frame of JSON values, which are copied; {@code wayMs}: the known part of the
+     * transit time.
      */
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = ImmutableCopy.map(data);
@@ -72,21 +68,6 @@ public final class Telemetry {
     /** Returns the same frame after its link was lost: everything in it is stale. */
     Telemetry withLostLink() {
         return new Telemetry(tree, beacon, receivedMs, age.withLostLink());
-    }
-
-    /** Returns the age of the frame including transit, ms; null without a frame. */
-    public Long ageMs(long nowMs) {
-        return age.frameMs(nowMs);
-    }
-
-    /** Returns the age of a reading ({@link Age#readingMs}), ms; null: not known. */
-    public Long readingAgeMs(String reading, long nowMs) {
-        return age.readingMs(reading, nowMs);
-    }
-
-    /** Returns whether no displayed value can be trusted to be current. */
-    public boolean isSilent(long nowMs) {
-        return age.isSilent(nowMs);
     }
 
     /** Returns whether the value at a path may be flown by now. */

@@ -84,7 +84,6 @@ final class TelemetryStream {
         newest = Telemetry.EMPTY;
     }
 
-    /** Makes everything stale: the link is lost. */
     Telemetry onLost() {
         newest = newest.withLostLink();
         return newest;

@@ -17,7 +17,6 @@ public final class Track {
 
     /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
-        /** A number that rises with each change. */
         public final long version;
         /** The position of north 0, east 0; null before the first position. */
         public final Home origin;
@@ -44,13 +43,11 @@ public final class Track {
     private static final class Spot {
         final double latitudeDeg;
         final double longitudeDeg;
-        final Double altitudeM;
         final boolean isAfterSilence;
 
-        Spot(double latitudeDeg, double longitudeDeg, Double altitudeM, boolean isAfterSilence) {
+        Spot(double latitudeDeg, double longitudeDeg, boolean isAfterSilence) {
             this.latitudeDeg = latitudeDeg;
             this.longitudeDeg = longitudeDeg;
-            this.altitudeM = altitudeM;
             this.isAfterSilence = isAfterSilence;
         }
     }
@@ -70,7 +67,6 @@ public final class Track {
     Track() {
     }
 
-    /** Returns a number that rises with each change. */
     public long version() {
         return version;
     }
@@ -88,15 +84,6 @@ public final class Track {
         return snapshot;
     }
 
-    public void clear() {
-        spots.clear();
-        pointsOrigin = null;
-        newest = null;
-        firstPlace = null;
-        isAfterSilence = false;
-        version++;
-    }
-
     /** Takes the position of a frame, if it has a valid one; time only increases. */
     void update(Telemetry telemetry, Home known, long nowMs) {
         if (known != null && known != home) {
@@ -109,17 +96,13 @@ public final class Track {
                 || Math.abs(longitude) > 180) {
             return;
         }
-        Double altitude = telemetry.number("location.altitude");
-        if (altitude == null) {
-            altitude = telemetry.number("altitude");
-        }
         if (!telemetry.age.isStale("location", nowMs)) {
             isAfterSilence |= gaps.update(nowMs);
         }
         if (firstPlace == null) {
             firstPlace = new Home(latitude, longitude);
         }
-        newest = new Spot(latitude, longitude, altitude, isAfterSilence && !spots.isEmpty());
+        newest = new Spot(latitude, longitude, isAfterSilence && !spots.isEmpty());
         version++;
         if (spots.isEmpty() || distanceM(lastSpot(), newest) >= MIN_DISTANCE_M) {
             isAfterSilence = false;
@@ -139,7 +122,7 @@ public final class Track {
             hasGap |= spot.isAfterSilence;
             if (place % 2 == 0 || place == spots.size() - 1) {
                 kept.add(hasGap == spot.isAfterSilence ? spot : new Spot(spot.latitudeDeg,
-                        spot.longitudeDeg, spot.altitudeM, hasGap));
+                        spot.longitudeDeg, hasGap));
                 hasGap = false;
             }
         }
@@ -169,7 +152,7 @@ public final class Track {
     private static TrackPoint point(Home origin, Spot spot) {
         return new TrackPoint(Earth.northM(origin.latitudeDeg, spot.latitudeDeg),
                 Earth.eastM(origin.longitudeDeg, spot.longitudeDeg, origin.latitudeDeg),
-                spot.altitudeM, spot.isAfterSilence);
+                spot.isAfterSilence);
     }
 
     private static double distanceM(Spot a, Spot b) {
@@ -178,19 +161,14 @@ public final class Track {
 
     /** One place of the track. Immutable. */
     public static final class TrackPoint {
-        /** The metres north of the track's origin. */
         public final double northM;
-        /** The metres east of the track's origin. */
         public final double eastM;
-        /** The altitude, m; null: not known. */
-        public final Double altitudeM;
         /** Whether a gap precedes it: no line leads to it. */
         public final boolean isAfterSilence;
 
-        TrackPoint(double northM, double eastM, Double altitudeM, boolean isAfterSilence) {
+        TrackPoint(double northM, double eastM, boolean isAfterSilence) {
             this.northM = northM;
             this.eastM = eastM;
-            this.altitudeM = altitudeM;
             this.isAfterSilence = isAfterSilence;
         }
     }

@@ -1,11 +1,8 @@
 package org.raspilot.up.loop;
 
-import java.util.concurrent.atomic.AtomicLong;
-
-/** Runs calls so that an exception is reported and counted, and does not affect others. */
+/** Runs calls so that an exception is reported and does not affect others. */
 final class Guard {
     private final FaultListener listener;
-    private final AtomicLong faults = new AtomicLong();
 
     Guard(FaultListener listener) {
         this.listener = listener;
@@ -23,18 +20,12 @@ final class Guard {
         }
     }
 
-    /** Counts and reports a fault; an exception of the listener itself is counted too. */
+    /** Reports a fault; an exception of the listener itself is dropped. */
     void report(Throwable fault) {
-        faults.incrementAndGet();
         try {
             listener.onFault(fault);
         } catch (RuntimeException another) {
-            faults.incrementAndGet();
+            return; // Nobody is left to report it to.
         }
-    }
-
-    /** Returns the number of faults; may be called on any thread. */
-    long faults() {
-        return faults.get();
     }
 }

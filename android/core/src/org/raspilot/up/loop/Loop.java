@@ -3,7 +3,7 @@ package org.raspilot.up.loop;
 /**
  * The one thread that owns all of the core's state: code on it needs no lock.
  *
- * <p>A call's exception is counted, and reported to the {@link FaultListener} only.
+ * <p>A call's exception is reported to the {@link FaultListener} only.
  */
 public interface Loop {
     /** Returns monotonic milliseconds from an arbitrary origin; may be called on any thread. */
@@ -17,9 +17,6 @@ public interface Loop {
      * Only on the loop.
      */
     Cancellable schedule(long delayMs, Runnable call);
-
-    /** Returns whether the calling thread is the loop. */
-    boolean isInLoop();
 
     /** Returns the network whose listeners are called on this loop. */
     Network network();

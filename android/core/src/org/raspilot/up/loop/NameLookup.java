@@ -42,12 +42,12 @@ final class NameLookup {
     /** Looks up a name or an address; the caller is answered after this call has returned. */
     void resolve(final String host, final Asker asker) {
         if (host == null || host.isEmpty()) {
-            notifyListener(asker, new Answer(null, "the host is empty"));
+            notifyListener(asker, unknown("the host is empty"));
             return;
         }
         final InetAddress numeric = numeric(host);
         if (numeric != null) {
-            notifyListener(asker, new Answer(new InetAddress[] {numeric}, null));
+            notifyListener(asker, known(numeric));
         } else if (waitingListeners.containsKey(host)) {
             waitingListeners.get(host).add(asker);
         } else {
@@ -94,7 +94,7 @@ final class NameLookup {
                 loop.post(() -> notifyAllListeners(host, answer));
             });
         } catch (RejectedExecutionException stopped) {
-            notifyAllListeners(host, new Answer(null, "the loop was stopped"));
+            notifyAllListeners(host, unknown("the loop was stopped"));
         }
     }
 
@@ -106,24 +106,26 @@ final class NameLookup {
     }
 
     private void notifyListener(final Asker asker, final Answer answer) {
-        loop.post(() -> {
-            if (answer.addresses == null) {
-                asker.onUnknown(answer.reason);
-            } else {
-                asker.onAddresses(answer.addresses);
-            }
-        });
+        loop.post(() -> answer.giveTo(asker));
     }
 
     private Answer query(String host) {
         try {
-            return new Answer(resolver.resolve(host), null);
+            return known(resolver.resolve(host));
         } catch (UnknownHostException error) {
-            return new Answer(null, "the name " + host + " is not known");
+            return unknown("the name " + host + " is not known");
         } catch (RuntimeException error) {
             // Android throws SecurityException without the permission to use the network.
-            return new Answer(null, "the name " + host + " cannot be looked up: " + error);
+            return unknown("the name " + host + " cannot be looked up: " + error);
         }
+    }
+
+    private static Answer known(InetAddress... addresses) {
+        return asker -> asker.onAddresses(addresses);
+    }
+
+    private static Answer unknown(String reason) {
+        return asker -> asker.onUnknown(reason);
     }
 
     /** Looks up, on the calling thread. */
@@ -139,14 +141,8 @@ final class NameLookup {
         void onUnknown(String reason);
     }
 
-    private static final class Answer {
-        private final InetAddress[] addresses;
-        private final String reason;
-
-        Answer(InetAddress[] addresses, String reason) {
-            this.addresses = addresses;
-            this.reason = reason;
-        }
+    private interface Answer {
+        void giveTo(Asker asker);
     }
 
     /** Queries the system for a name's addresses: IPv4 first, on which the peers listen. */

@@ -4,7 +4,6 @@ import java.nio.channels.SelectionKey;
 
 /** What a selector's key belongs to. Called on the loop. */
 interface SelectorHandler {
-    /** Does what the key is ready for. */
     void onReady(SelectionKey key);
 
     /** Takes the key that replaces its own: the selector was replaced. */

@@ -37,23 +37,12 @@ public final class SelectorLoop implements Loop, Network {
     private volatile boolean isStopped;
     private final AtomicLong rounds = new AtomicLong();
 
-    /**
-     * Creates a loop that is not started yet.
-     *
-     * @param name of its thread
-     * @param faults receives exceptions of calls on the loop
-     */
+    /** Creates a loop on System.nanoTime(), which stops while a device sleeps. */
     public SelectorLoop(String name, FaultListener faults) {
         this(name, faults, () -> System.nanoTime());
     }
 
-    /**
-     * Creates a loop that is not started yet.
-     *
-     * @param name of its thread
-     * @param faults receives exceptions of calls on the loop
-     * @param clock of the loop; on a sleeping device System.nanoTime() stops
-     */
+    /** Creates a loop that is not started; exceptions of calls on it go to {@code faults}. */
     public SelectorLoop(String name, FaultListener faults, Clock clock) {
         this(name, faults, clock, new SocketSelector(), new SystemResolver());
     }
@@ -108,11 +97,6 @@ public final class SelectorLoop implements Loop, Network {
         }
     }
 
-    /** Returns the number of calls that threw; may be called on any thread. */
-    public long faults() {
-        return guard.faults();
-    }
-
     /** Returns the number of wake-ups; may be called on any thread. */
     public long rounds() {
         return rounds.get();
@@ -138,8 +122,7 @@ public final class SelectorLoop implements Loop, Network {
         return timers.add(clock.nowNs() + Math.min(delayNs, Long.MAX_VALUE / 2), call);
     }
 
-    @Override
-    public boolean isInLoop() {
+    boolean isInLoop() {
         return Thread.currentThread() == thread;
     }
 
@@ -174,7 +157,7 @@ public final class SelectorLoop implements Loop, Network {
         return sockets.register(channel, operations, ready);
     }
 
-    /** Counts and reports a fault that belongs to no call. */
+    /** Reports a fault that belongs to no call. */
     void report(Throwable fault) {
         guard.report(fault);
     }
@@ -222,7 +205,7 @@ public final class SelectorLoop implements Loop, Network {
         TimerQueue.Timer timer = timers.take(nowNs, mark);
         while (timer != null) {
             sockets.hadReason();
-            run(timer.call());
+            run(timer.call);
             timer = timers.take(nowNs, mark);
         }
     }
@@ -259,7 +242,7 @@ public final class SelectorLoop implements Loop, Network {
         if (first == null) {
             return -1;
         }
-        final long waitNs = Math.max(0, first.time() - nowNs);
+        final long waitNs = Math.max(0, first.time - nowNs);
         return (waitNs + 999999L) / 1000000L;
     }
 

@@ -40,11 +40,7 @@ class SocketSelector {
         emptyRounds = 0;
     }
 
-    /**
-     * Waits until a socket is ready and returns the ready keys.
-     *
-     * @param waitMs the maximum wait; 0: none, -1: no limit
-     */
+    /** Returns the ready keys after at most {@code waitMs}; 0: no wait, -1: no limit. */
     List<SelectionKey> await(long waitMs) throws IOException {
         final boolean isReplaced = emptyRounds > MAX_EMPTY_ROUNDS;
         if (isReplaced) {
@@ -66,7 +62,6 @@ class SocketSelector {
         return ready;
     }
 
-    /** Returns the owners of the keys. */
     List<SelectorHandler> registered() {
         final List<SelectorHandler> all = new ArrayList<>();
         for (SelectionKey key : selector.keys()) {

@@ -27,7 +27,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
     private final long endMs;
     private final TcpListener listener;
     private State state = State.CONNECTING;
-    private Cancellable limit;
+    private Cancellable limit = Cancellable.DONE;
     private InetAddress[] addresses = new InetAddress[0];
     private int tried;
     private SocketChannel channel;
@@ -88,7 +88,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
     @Override
     public void close() {
         state = State.CLOSED;
-        cancelLimit();
+        limit.cancel();
         closeChannel();
     }
 
@@ -166,7 +166,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
     }
 
     private void connected() {
-        cancelLimit();
+        limit.cancel();
         state = State.OPEN;
         listener.onConnected();
     }
@@ -200,7 +200,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
     }
 
     private void failLater(final String reason) {
-        cancelLimit();
+        limit.cancel();
         state = State.BROKEN;
         loop.post(() -> fail(reason));
     }
@@ -213,14 +213,8 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
     }
 
     private void limit(long delayMs, final String reason) {
-        cancelLimit();
+        limit.cancel();
         limit = loop.schedule(delayMs, () -> connectNext(reason));
-    }
-
-    private void cancelLimit() {
-        if (limit != null) {
-            limit.cancel();
-        }
     }
 
     private void closeChannel() {

@@ -1,11 +1,14 @@
 package org.raspilot.up.loop;
 
-import java.util.Comparator;
 import java.util.PriorityQueue;
 
 /** Timers in the order of their due times; those of equal time in the order of scheduling. */
 final class TimerQueue {
-    private final PriorityQueue<Timer> timers = new PriorityQueue<>(16, new Sooner());
+    /** By differences, as the clock's beginning is arbitrary and it may run over. */
+    private final PriorityQueue<Timer> timers = new PriorityQueue<>(16, (one, other) -> {
+        final long apart = one.time - other.time;
+        return Long.signum(apart != 0 ? apart : one.order - other.order);
+    });
     private long asked;
 
     /** Adds a timer that falls due at {@code time}, in whatever unit the caller keeps time. */
@@ -43,9 +46,9 @@ final class TimerQueue {
     }
 
     final class Timer implements Cancellable {
-        private final long time;
+        final long time;
+        final Runnable call;
         private final long order;
-        private final Runnable call;
         private boolean isPending = true;
 
         private Timer(long time, long order, Runnable call) {
@@ -54,34 +57,12 @@ final class TimerQueue {
             this.call = call;
         }
 
-        long time() {
-            return time;
-        }
-
-        Runnable call() {
-            return call;
-        }
-
         @Override
         public void cancel() {
             if (isPending) {
                 isPending = false;
                 timers.remove(this);
             }
-        }
-
-        @Override
-        public boolean isPending() {
-            return isPending;
-        }
-    }
-
-    /** By differences, as the clock's beginning is arbitrary and it may run over. */
-    private static final class Sooner implements Comparator<Timer> {
-        @Override
-        public int compare(Timer one, Timer other) {
-            final long apart = one.time - other.time;
-            return Long.signum(apart != 0 ? apart : one.order - other.order);
         }
     }
 }

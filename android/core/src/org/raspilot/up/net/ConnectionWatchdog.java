@@ -75,10 +75,10 @@ final class ConnectionWatchdog {
             }
         }
 
-        /** Stops; it may be started again. */
         void stop() {
             if (timer != null) {
                 timer.cancel();
+                timer = null;
             }
         }
 
@@ -88,7 +88,7 @@ final class ConnectionWatchdog {
         }
 
         boolean isRunning() {
-            return timer != null && timer.isPending();
+            return timer != null;
         }
 
         private void check() {
@@ -98,6 +98,7 @@ final class ConnectionWatchdog {
             } else if (!isSecondLook) {
                 checkAfter(0, true);
             } else {
+                timer = null;
                 onIdle.run();
             }
         }

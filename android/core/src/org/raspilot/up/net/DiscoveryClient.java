@@ -25,14 +25,7 @@ public final class DiscoveryClient implements EndpointDiscovery {
     private final int generalPort;
     private final int orientationPort;
 
-    /**
-     * Creates a client.
-     *
-     * @param addresses where requests go
-     * @param port Discovery's, {@link #PORT} unless configured
-     * @param generalPort where the found host listens for General Messages
-     * @param orientationPort where it listens for orientation; 0: not at all
-     */
+    /** Asks at {@code port}; the found host listens at the other two, 0: not for orientation. */
     public DiscoveryClient(Loop loop, BroadcastAddresses addresses, int port, int generalPort,
             int orientationPort) {
         this.loop = loop;
@@ -83,11 +76,6 @@ public final class DiscoveryClient implements EndpointDiscovery {
                 limit.cancel();
                 udp.close();
             }
-        }
-
-        @Override
-        public boolean isPending() {
-            return isPending;
         }
 
         @Override

@@ -8,16 +8,12 @@ public final class Endpoint {
     public final int orientationPort;
 
     /**
-     * Creates a place.
-     *
-     * @param host a name or an address
-     * @param generalPort TCP, 1 to 65535
-     * @param orientationPort TCP and UDP, 1 to 65535; 0: absent
-     * @throws IllegalArgumentException with a sentence when the host is empty or a port is invalid
+     * Takes a name or an address and ports of 1 to 65535; {@code orientationPort} 0: absent. Throws
+     * IllegalArgumentException with a sentence otherwise.
      */
     public Endpoint(String host, int generalPort, int orientationPort) {
         if (host == null || host.isEmpty()) {
-            throw new SettingRules.InvalidSettingException("host", "is empty");
+            throw new IllegalArgumentException("the host is empty");
         }
         SettingRules.port("port", generalPort);
         SettingRules.range("orientation port", orientationPort, 0, 65535);

@@ -21,10 +21,6 @@ public final class LastEndpoint implements EndpointDiscovery {
         return endpoint;
     }
 
-    public void clear() {
-        endpoint = null;
-    }
-
     /** Searches with the other finder and stores its result. */
     @Override
     public Cancellable find(final DiscoveryListener listener) {

@@ -39,11 +39,6 @@ final class LineDispatcher {
         deliver(connection, splitter.feed(bytes, length).iterator());
     }
 
-    /** Returns how many lines were dropped because they were too long. */
-    long tooLong() {
-        return splitter.droppedTooLong();
-    }
-
     private void deliver(final Object from, final Iterator<byte[]> lines) {
         boolean isDone = false;
         try {

@@ -11,33 +11,21 @@ import org.raspilot.up.loop.UdpPort;
  * loop.
  */
 public final class OrientationSender {
-    public static final int FRAME_BYTES = 24;
-
-    public enum Transport {
-        /** A connection that is kept. */
-        TCP,
-        /** One frame a datagram. */
-        UDP
-    }
-
     private final Loop loop;
     private final LastEndpoint known;
     private final UpSocket socket;
     private UdpPort udp;
     private Endpoint followed;
     private boolean isStarted;
-    private String problem = "";
 
     /**
-     * Creates a sender that is not started.
-     *
-     * @param known the place of the General Message link; frames go to its orientation port
-     * @param random seeded: the waits between attempts vary by it
+     * Creates a sender to the orientation port of {@code known}: by datagrams or on a connection
+     * that is kept, whose retry waits vary by {@code random}.
      */
-    public OrientationSender(Loop loop, LastEndpoint known, Transport transport, Random random) {
+    public OrientationSender(Loop loop, LastEndpoint known, boolean isUdp, Random random) {
         this.loop = loop;
         this.known = known;
-        socket = transport == Transport.UDP ? null : new UpSocket(loop, known.follower(),
+        socket = isUdp ? null : new UpSocket(loop, known.follower(),
                 new UpSocketListener() { }, UpSocketSettings.raw(), random);
     }
 
@@ -92,12 +80,8 @@ public final class OrientationSender {
      * Sends a frame of 24 bytes.
      *
      * @return false when it was dropped: not connected, or the place is not known
-     * @throws IllegalArgumentException when it has another size
      */
     public boolean send(byte[] frame) {
-        if (frame.length != FRAME_BYTES) {
-            throw new IllegalArgumentException("a frame of " + frame.length + " bytes");
-        }
         if (!isStarted) {
             return false;
         }
@@ -108,25 +92,6 @@ public final class OrientationSender {
     /** Returns whether frames can leave now. */
     public boolean isReady() {
         return socket != null ? socket.isConnected() : udp != null && hasPort();
-    }
-
-    /** Returns a sentence without a full stop: the destination of frames, or why none are sent. */
-    public String sentence() {
-        if (socket != null) {
-            return socket.status().sentence;
-        }
-        if (!isStarted) {
-            return "stopped";
-        }
-        if (!problem.isEmpty()) {
-            return problem;
-        }
-        final Endpoint place = known.endpoint();
-        if (place == null) {
-            return "the Raspberry Pi is not found yet";
-        }
-        return hasPort() ? "datagrams to " + place.host + ":" + place.orientationPort
-                : place.host + " has no orientation port";
     }
 
     private boolean sendDatagram(byte[] frame) {
@@ -147,9 +112,8 @@ public final class OrientationSender {
             udp = loop.network().openUdp((bytes, length, host, port) -> {
                 // Whatever comes is not for us.
             });
-            problem = "";
         } catch (IOException error) {
-            problem = "no socket for datagrams: " + error.getMessage();
+            udp = null; // The next frame tries again.
         }
     }
 

@@ -17,13 +17,11 @@ import org.raspilot.up.tls.TlsIdentity;
  * authentic answer counts. Only on the loop.
  */
 public final class RunnerClient implements EndpointDiscovery {
-    /** The TCP port of a runner. */
     public static final int PORT = 3002;
     /** How long connecting may take, ms. */
     public static final int CONNECT_MS = 2000;
     /** How long the runner may take from there, ms: it starts a whole program. */
     public static final int ANSWER_MS = 20000;
-    /** Bytes of the longest answer. */
     public static final int MAX_ANSWER_BYTES = 65536;
 
     private static final Charset UTF_8 = Charset.forName("UTF-8");
@@ -35,13 +33,7 @@ public final class RunnerClient implements EndpointDiscovery {
     private final RunnerRequest request;
     private RunnerAnswer lastAnswer;
 
-    /**
-     * Creates a client.
-     *
-     * @param host the runner's name or address
-     * @param port its port, {@link #PORT} unless configured
-     * @param tls the certificates of TLS; null: plain TCP
-     */
+    /** Creates a client of a runner; {@code tls} null: plain TCP. */
     public RunnerClient(Loop loop, String host, int port, TlsIdentity tls,
             RunnerRequest request) {
         this.loop = loop;
@@ -89,11 +81,6 @@ public final class RunnerClient implements EndpointDiscovery {
                 }
                 connection.close();
             }
-        }
-
-        @Override
-        public boolean isPending() {
-            return isPending;
         }
 
         @Override

@@ -17,10 +17,10 @@ public final class RunnerRequest {
      * @param aircraft 1 to 32 of {@code A-Z a-z 0-9 _ . -}, not beginning with a dot
      * @param profile name of a ready-made configuration on the runner's host; empty: none
      * @param pairing this device's key of the aircraft; null: the request is plain
-     * @throws SettingRules.InvalidSettingException when the aircraft's name is invalid
+     * @throws IllegalArgumentException when the aircraft's name is invalid
      */
     public RunnerRequest(String aircraft, String profile, Pairing pairing) {
-        SettingRules.aircraft("aircraft's name", aircraft);
+        SettingRules.aircraft(aircraft);
         final Map<String, Object> request = new LinkedHashMap<>();
         request.put("aircraft", aircraft);
         if (!profile.isEmpty()) {

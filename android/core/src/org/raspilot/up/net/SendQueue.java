@@ -1,6 +1,7 @@
 package org.raspilot.up.net;
 
 import java.util.ArrayDeque;
+import java.util.Arrays;
 import java.util.Iterator;
 import java.util.LinkedHashMap;
 import java.util.Map;
@@ -22,9 +23,6 @@ final class SendQueue {
     private int written;
     private int orderedBytes;
     private int newestBytes;
-    private long sent;
-    private long replaced;
-    private long bytesOut;
 
     /** Creates a queue of raw frames, or of lines, of at most 64 KiB in order or newest. */
     SendQueue(boolean isRaw) {
@@ -53,116 +51,76 @@ final class SendQueue {
         newestBytes = grownBytes;
         // The older message's position is kept, so that no key starves.
         newest.put(key, bytes);
-        if (older != null) {
-            replaced++;
-        }
         return true;
     }
 
-    /** Writes what the connection accepts now. Unstarted messages stay replaceable. */
-    void flush(TcpConnection connection) {
-        if (partial != null && !writeRest(connection)) {
-            return;
+    /**
+     * Writes what the connection accepts now and returns how many bytes; unstarted messages stay
+     * replaceable.
+     */
+    int flush(TcpConnection connection) {
+        int all = 0;
+        for (byte[] next = next(); next != null; next = next()) {
+            final int taken = connection.write(next, written, next.length - written);
+            all += taken;
+            if (taken > 0 && partial == null) {
+                removeNext();
+            }
+            written += taken;
+            if (written < next.length) {
+                partial = written > 0 ? next : null;
+                return all;
+            }
+            partial = null;
+            written = 0;
         }
-        while (!ordered.isEmpty()) {
-            final byte[] first = ordered.peek();
-            final int taken = write(connection, first, 0);
-            if (taken == 0) {
-                return;
-            }
-            ordered.remove();
-            orderedBytes -= first.length;
-            if (!isWhole(first, taken)) {
-                return;
-            }
-        }
-        final Iterator<byte[]> each = newest.values().iterator();
-        while (each.hasNext()) {
-            final byte[] next = each.next();
-            final int taken = write(connection, next, 0);
-            if (taken == 0) {
-                return;
-            }
-            each.remove();
-            newestBytes -= next.length;
-            if (!isWhole(next, taken)) {
-                return;
-            }
-        }
+        return all;
     }
 
-    /** Clears the queue: the connection is gone. Returns the number of dropped lines or frames. */
-    int clear() {
-        final int count = ordered.size() + newest.size() + (partial != null ? 1 : 0);
+    /** Clears the queue: the connection is gone. */
+    void clear() {
         ordered.clear();
         newest.clear();
         orderedBytes = 0;
         newestBytes = 0;
         partial = null;
         written = 0;
-        return count;
     }
 
     boolean isEmpty() {
-        return partial == null && ordered.isEmpty() && newest.isEmpty();
+        return next() == null;
     }
 
-    int waitingBytes() {
-        return orderedBytes + newestBytes + (partial == null ? 0 : partial.length - written);
+    private byte[] next() {
+        if (partial != null) {
+            return partial;
+        }
+        if (!ordered.isEmpty()) {
+            return ordered.peek();
+        }
+        return newest.isEmpty() ? null : newest.values().iterator().next();
     }
 
-    long sent() {
-        return sent;
-    }
-
-    long replaced() {
-        return replaced;
-    }
-
-    long bytesOut() {
-        return bytesOut;
-    }
-
-    /** Counts bytes that bypassed the queue. */
-    void wrote(int bytes) {
-        bytesOut += bytes;
+    private void removeNext() {
+        if (!ordered.isEmpty()) {
+            orderedBytes -= ordered.remove().length;
+            return;
+        }
+        final Iterator<byte[]> each = newest.values().iterator();
+        newestBytes -= each.next().length;
+        each.remove();
     }
 
     private byte[] whole(byte[] bytes) {
         if (isRaw || bytes.length > 0 && bytes[bytes.length - 1] == LF) {
             return bytes.clone();
         }
-        final byte[] whole = new byte[bytes.length + 1];
-        System.arraycopy(bytes, 0, whole, 0, bytes.length);
+        final byte[] whole = Arrays.copyOf(bytes, bytes.length + 1);
         whole[bytes.length] = LF;
         return whole;
     }
 
     private boolean isSendable(byte[] bytes) {
         return bytes.length > 0 && (isRaw || bytes.length <= LineSplitter.MAX_LINE_BYTES);
-    }
-
-    private boolean writeRest(TcpConnection connection) {
-        final byte[] bytes = partial;
-        final int taken = write(connection, bytes, written);
-        partial = null;
-        return isWhole(bytes, written + taken);
-    }
-
-    private int write(TcpConnection connection, byte[] bytes, int offset) {
-        final int taken = connection.write(bytes, offset, bytes.length - offset);
-        bytesOut += taken;
-        return taken;
-    }
-
-    /** Counts sent bytes, or keeps the rest to be finished before all others. */
-    private boolean isWhole(byte[] bytes, int gone) {
-        if (gone == bytes.length) {
-            sent++;
-            return true;
-        }
-        partial = bytes;
-        written = gone;
-        return false;
     }
 }

@@ -4,7 +4,7 @@ import java.util.regex.Pattern;
 import org.raspilot.up.security.Pairing;
 import org.raspilot.up.wire.Hello;
 
-/** The rules that settings share; each throws {@link InvalidSettingException}. */
+/** The rules that settings share; each throws IllegalArgumentException with a sentence. */
 public final class SettingRules {
     private static final int MAX_HOST_LENGTH = 253;
     private static final Pattern HOST = Pattern.compile("[A-Za-z0-9_.:%-]+");
@@ -12,23 +12,14 @@ public final class SettingRules {
     private SettingRules() {
     }
 
-    /** Returns whether a text may be a name or an address. */
     public static boolean isHost(String text) {
         return text.length() <= MAX_HOST_LENGTH && HOST.matcher(text).matches();
     }
 
-    public static void present(String setting, Object value) {
-        if (value == null) {
-            throw new InvalidSettingException(setting, "is missing");
-        }
-    }
-
-    /** Checks a name or an address. */
     public static void host(String setting, String host) {
-        present(setting, host);
         if (!isHost(host)) {
-            throw new InvalidSettingException(setting,
-                    "must be a name or an address, without blanks and slashes");
+            throw new IllegalArgumentException("the " + setting
+                    + " must be a name or an address, without blanks and slashes");
         }
     }
 
@@ -37,46 +28,32 @@ public final class SettingRules {
     }
 
     /** Checks the name of an aircraft, as proxies and runners know it. */
-    public static void aircraft(String setting, String name) {
+    public static void aircraft(String name) {
         if (!Hello.isAircraftName(name)) {
-            throw new InvalidSettingException(setting,
-                    "must be 1 to 32 of A-Z a-z 0-9 _ . - and not begin with a dot");
+            throw new IllegalArgumentException("the aircraft's name must be 1 to 32 of"
+                    + " A-Z a-z 0-9 _ . - and not begin with a dot");
         }
     }
 
     /** Checks that a key, if there is one, is that of the aircraft. */
     public static void pairing(Pairing key, String aircraft) {
         if (key != null && !key.aircraft.equals(aircraft)) {
-            throw new InvalidSettingException("key", "is that of another aircraft");
+            throw new IllegalArgumentException("the key is that of another aircraft");
         }
     }
 
-    /** Checks a whole number. */
     public static void range(String setting, int value, int least, int most) {
         if (value < least || value > most) {
-            throw new InvalidSettingException(setting,
-                    "must be " + least + " to " + most + ", not " + value);
+            throw new IllegalArgumentException("the " + setting
+                    + " must be " + least + " to " + most + ", not " + value);
         }
     }
 
     /** Checks a number; NaN is refused. */
     public static void range(String setting, double value, double least, double most) {
         if (!(value >= least && value <= most)) {
-            throw new InvalidSettingException(setting,
-                    "must be " + (long) least + " to " + (long) most + ", not " + value);
-        }
-    }
-
-    /** A setting cannot be used; the text is one sentence that names it. */
-    public static final class InvalidSettingException extends IllegalArgumentException {
-        private static final long serialVersionUID = 1L;
-
-        /** The setting, in words: {@code orientation port}. */
-        public final String setting;
-
-        public InvalidSettingException(String setting, String rule) {
-            super("the " + setting + " " + rule);
-            this.setting = setting;
+            throw new IllegalArgumentException("the " + setting
+                    + " must be " + (long) least + " to " + (long) most + ", not " + value);
         }
     }
 }

@@ -29,17 +29,10 @@ public final class UpSocket {
             new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "stopped", "not started");
     private Endpoint place;
     private Attempt current;
-    private Cancellable retry;
+    private Cancellable retry = Cancellable.DONE;
     private long connects;
-    private long lost;
-    private long dropped;
-    private long received;
 
-    /**
-     * Creates a socket that is not started.
-     *
-     * @param random a seeded source: the waits vary by it
-     */
+    /** Creates a socket that is not started; {@code random}, seeded, varies the retry waits. */
     public UpSocket(Loop loop, EndpointDiscovery discovery, UpSocketListener listener,
             UpSocketSettings settings, Random random) {
         this.loop = loop;
@@ -48,7 +41,7 @@ public final class UpSocket {
         this.settings = settings;
         queue = new SendQueue(settings.isRaw);
         backOff = new BackOff(settings.initialRetryMs, settings.maxRetryMs, random);
-        lines = new LineDispatcher(loop, line -> receive(line, line.length));
+        lines = new LineDispatcher(loop, line -> listener.onReceived(line, line.length));
         watch = new ConnectionWatchdog(loop, settings, () -> beat(), () -> drop("stalled",
                 current.peer + " took nothing for " + settings.stallLimitMs + " ms"));
     }
@@ -67,7 +60,7 @@ public final class UpSocket {
             final boolean wasConnected = end();
             setState(UpSocketStatus.State.STOPPED, "stopped", "stopped");
             if (wasConnected) {
-                listener.onLost(this, "stopped");
+                listener.onLost("stopped");
             }
         }
     }
@@ -95,7 +88,6 @@ public final class UpSocket {
         final long nowMs = loop.nowMs();
         long tookMs = nowMs - current.beganMs;
         if (isConnected()) {
-            lost++;
             tookMs = 0;
             if (nowMs - current.connectedMs >= settings.maxRetryMs) {
                 // Not earlier: the wait must grow for a peer that always hangs up immediately.
@@ -106,7 +98,7 @@ public final class UpSocket {
         retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
         setState(UpSocketStatus.State.WAITING, code, reason + "; trying again");
         if (wasConnected) {
-            listener.onLost(this, reason);
+            listener.onLost(reason);
         }
     }
 
@@ -118,7 +110,7 @@ public final class UpSocket {
      *     16 KiB: nothing is kept for later
      */
     public boolean send(byte[] bytes) {
-        return count(isConnected() && queue.add(bytes));
+        return flushIf(isConnected() && queue.add(bytes));
     }
 
     /**
@@ -128,26 +120,19 @@ public final class UpSocket {
      *     than 16 KiB: nothing is kept for later
      */
     public boolean sendNewest(Object key, byte[] bytes) {
-        return count(isConnected() && queue.replace(key, bytes));
+        return flushIf(isConnected() && queue.replace(key, bytes));
     }
 
-    /** Returns whether a connection is there. */
     public boolean isConnected() {
         return status.isConnected();
-    }
-
-    /** Returns how many bytes wait for the system to take them. */
-    public int waitingBytes() {
-        return queue.waitingBytes();
     }
 
     public UpSocketStatus status() {
         return status;
     }
 
-    public UpSocketCounters counters() {
-        return new UpSocketCounters(connects, lost, queue.sent(), dropped,
-                queue.replaced(), received, lines.tooLong(), queue.bytesOut());
+    public long connects() {
+        return connects;
     }
 
     private void attempt() {
@@ -169,12 +154,10 @@ public final class UpSocket {
     /** Ends the current attempt or connection; returns whether it was a connection. */
     private boolean end() {
         final boolean wasConnected = isConnected();
-        if (retry != null) {
-            retry.cancel();
-        }
+        retry.cancel();
         watch.stop();
         lines.end();
-        dropped += queue.clear();
+        queue.clear();
         if (current != null) {
             final Attempt ended = current;
             current = null;
@@ -186,35 +169,25 @@ public final class UpSocket {
     private void setState(UpSocketStatus.State state, String code, String sentence) {
         status = new UpSocketStatus(state, place, code, sentence);
         // Posted, because a listener may throw, and may stop this in the middle of a change.
-        loop.post(() -> listener.onStatus(UpSocket.this));
+        loop.post(() -> listener.onStatus());
     }
 
-    private boolean count(boolean isTaken) {
+    private boolean flushIf(boolean isTaken) {
         if (isTaken) {
             flush();
-        } else {
-            dropped++;
         }
         return isTaken;
     }
 
     private void flush() {
-        final long beforeBytes = queue.bytesOut();
-        queue.flush(current.connection);
-        watch.onWritten(queue.bytesOut() - beforeBytes, !queue.isEmpty());
-    }
-
-    private void receive(byte[] bytes, int length) {
-        received++;
-        listener.onReceived(this, bytes, length);
+        final int bytes = queue.flush(current.connection);
+        watch.onWritten(bytes, !queue.isEmpty());
     }
 
     /** What waits is a sign of life itself, and a line must not be broken. */
     private void beat() {
         if (queue.isEmpty()) {
-            final int taken = current.connection.write(new byte[] {LF}, 0, 1);
-            queue.wrote(taken);
-            watch.onWritten(taken, false);
+            watch.onWritten(current.connection.write(new byte[] {LF}, 0, 1), false);
         }
     }
 
@@ -262,13 +235,13 @@ public final class UpSocket {
             lines.begin(this);
             setState(UpSocketStatus.State.CONNECTED, "", "connected to " + peer);
             watch.start();
-            listener.onConnected(UpSocket.this);
+            listener.onConnected();
         }
 
         @Override
         public void onBytes(byte[] bytes, int length) {
             if (settings.isRaw) {
-                receive(bytes, length);
+                listener.onReceived(bytes, length);
             } else {
                 lines.feed(bytes, length);
             }

@@ -3,7 +3,7 @@ package org.raspilot.up.net;
 /** Receives the data and events of an {@link UpSocket}. Called on the loop. */
 public interface UpSocketListener {
     /** Called when a connection is open: a message sent now is the first on it. */
-    default void onConnected(UpSocket socket) {
+    default void onConnected() {
     }
 
     /**
@@ -11,18 +11,16 @@ public interface UpSocketListener {
      * that is not empty, without its end; in raw mode whatever came. The array may be reused
      * afterwards.
      */
-    default void onReceived(UpSocket socket, byte[] bytes, int length) {
+    default void onReceived(byte[] bytes, int length) {
     }
 
     /**
      * Called when an open connection is lost; a new attempt follows unless the socket was stopped.
-     *
-     * @param reason a sentence without a full stop
      */
-    default void onLost(UpSocket socket, String reason) {
+    default void onLost(String reason) {
     }
 
     /** Called shortly after {@link UpSocket#status} has changed: for a screen. */
-    default void onStatus(UpSocket socket) {
+    default void onStatus() {
     }
 }

@@ -4,7 +4,6 @@ import org.raspilot.up.tls.TlsIdentity;
 
 /** How an {@link UpSocket} behaves; immutable, each {@code with} returns another. Times in ms. */
 public final class UpSocketSettings {
-    /** Most bytes that wait in order. */
     public static final int MAX_QUEUE_BYTES = 65536;
 
     /** Whether raw frames go to the orientation port, instead of lines to the other. */
@@ -23,15 +22,12 @@ public final class UpSocketSettings {
     UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
             int initialRetryMs, int maxRetryMs, TlsIdentity tls) {
         this.isRaw = isRaw;
-        this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
-        this.heartbeatMs = atLeast(0, heartbeatMs);
-        this.stallLimitMs = atLeast(0, stallLimitMs);
-        this.initialRetryMs = atLeast(1, initialRetryMs);
-        this.maxRetryMs = atLeast(initialRetryMs, maxRetryMs);
+        this.connectTimeoutMs = connectTimeoutMs;
+        this.heartbeatMs = heartbeatMs;
+        this.stallLimitMs = stallLimitMs;
+        this.initialRetryMs = initialRetryMs;
+        this.maxRetryMs = maxRetryMs;
         this.tls = tls;
-        if (isRaw && heartbeatMs > 0) {
-            throw new IllegalArgumentException("raw frames have no heartbeat");
-        }
     }
 
     /**
@@ -63,12 +59,5 @@ public final class UpSocketSettings {
     public UpSocketSettings withTls(TlsIdentity identity) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, stallLimitMs,
                 initialRetryMs, maxRetryMs, identity);
-    }
-
-    private static int atLeast(int least, int value) {
-        if (value < least) {
-            throw new IllegalArgumentException("a time of " + value + " ms is below " + least);
-        }
-        return value;
     }
 }

@@ -5,11 +5,8 @@ public final class UpSocketStatus {
     public enum State {
         /** It was not started, or it was stopped. */
         STOPPED,
-        /** Its finder is searching. */
         FINDING,
-        /** It connects. */
         CONNECTING,
-        /** It is connected. */
         CONNECTED,
         /** It waits before it tries again. */
         WAITING
@@ -36,10 +33,5 @@ public final class UpSocketStatus {
 
     public boolean isConnected() {
         return state == State.CONNECTED;
-    }
-
-    @Override
-    public String toString() {
-        return state + ": " + sentence;
     }
 }

@@ -8,7 +8,6 @@ package org.raspilot.up.providers;
 public final class AbsentSource<R> implements SensorSource<R> {
     private final String name;
 
-    /** Takes the name under which the sensor is reported as absent. */
     public AbsentSource(String name) {
         this.name = name;
     }

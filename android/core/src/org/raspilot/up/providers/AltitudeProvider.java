@@ -10,7 +10,6 @@ import org.raspilot.up.commands.Commands;
  * after {@link #zeroHere}. It is not smoothed, to avoid delay.
  */
 public final class AltitudeProvider extends SensorProvider<AltitudeProvider.Pressure> {
-    /** The name under which it is registered. */
     public static final String NAME = "altitude";
     /** The lowest reference pressure, hPa: a field at 9 km. */
     public static final double MIN_REFERENCE_HPA = 300;
@@ -39,11 +38,6 @@ public final class AltitudeProvider extends SensorProvider<AltitudeProvider.Pres
         referenceHPa = hPa;
     }
 
-    /** Returns the pressure at altitude zero, hPa. */
-    public double referenceHPa() {
-        return referenceHPa;
-    }
-
     /**
      * Sets the altitude at the device's position to zero; returns the reference pressure, hPa.
      *
@@ -57,7 +51,6 @@ public final class AltitudeProvider extends SensorProvider<AltitudeProvider.Pres
         return referenceHPa;
     }
 
-    /** Returns whether a reference pressure can be used. */
     public static boolean isReference(double hPa) {
         return hPa >= MIN_REFERENCE_HPA && hPa <= MAX_REFERENCE_HPA;
     }
@@ -73,7 +66,6 @@ public final class AltitudeProvider extends SensorProvider<AltitudeProvider.Pres
 
     /** The air pressure at the device, by its barometer. */
     public static final class Pressure {
-        /** Hectopascal. */
         public final double hPa;
 
         /** Stores the value unchanged; {@link AltitudeProvider} validates it. */

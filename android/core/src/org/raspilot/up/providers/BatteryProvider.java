@@ -5,7 +5,6 @@ import org.raspilot.up.commands.Commands;
 
 /** Sends the device's battery level: {@code android.battery}, on change and each ten seconds. */
 public final class BatteryProvider extends SensorProvider<BatteryProvider.BatteryLevel> {
-    /** The name under which it is registered. */
     public static final String NAME = "battery";
 
     private static final long MIN_MS = 1000;

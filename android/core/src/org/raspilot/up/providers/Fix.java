@@ -19,27 +19,9 @@ public final class Fix {
     /** How many satellites the fix uses; or null. */
     public final Integer satellites;
 
-    /** Stores the values unchanged, of a fix whose age and satellites are unknown. */
-    public Fix(
-            double latitudeDeg,
-            double longitudeDeg,
-            Double altitudeM,
-            Double accuracyM,
-            Double speedMS,
-            Double bearingDeg) {
-        this(latitudeDeg, longitudeDeg, altitudeM, accuracyM, speedMS, bearingDeg, null, null);
-    }
-
     /** Stores the values unchanged; {@link LocationProvider} validates them. */
-    public Fix(
-            double latitudeDeg,
-            double longitudeDeg,
-            Double altitudeM,
-            Double accuracyM,
-            Double speedMS,
-            Double bearingDeg,
-            Double ageMs,
-            Integer satellites) {
+    public Fix(double latitudeDeg, double longitudeDeg, Double altitudeM, Double accuracyM,
+            Double speedMS, Double bearingDeg, Double ageMs, Integer satellites) {
         this.latitudeDeg = latitudeDeg;
         this.longitudeDeg = longitudeDeg;
         this.altitudeM = altitudeM;

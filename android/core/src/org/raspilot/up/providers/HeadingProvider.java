@@ -5,7 +5,6 @@ import org.raspilot.up.commands.Commands;
 
 /** Sends the heading of the aircraft's nose by the compass: {@code up.heading.change}. */
 public final class HeadingProvider extends SensorProvider<Rotation> {
-    /** The name under which it is registered. */
     public static final String NAME = "heading";
 
     private static final long SILENCE_MS = 2000;

@@ -5,7 +5,6 @@ import org.raspilot.up.commands.Commands;
 
 /** Sends the GPS position of the device: {@code up.location.update}. */
 public final class LocationProvider extends SensorProvider<Fix> {
-    /** The name under which it is registered. */
     public static final String NAME = "location";
 
     private static final long SILENCE_MS = 10000;

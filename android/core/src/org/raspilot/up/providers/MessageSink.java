@@ -17,9 +17,7 @@ public interface MessageSink {
     /** Sends an orientation frame, newest wins; returns whether the link took it. */
     boolean sendOrientation(OrientationFrame frame);
 
-    /** Returns whether the link for Commands is connected. */
     boolean isOpen();
 
-    /** Returns whether orientation can leave now. */
     boolean isOrientationOpen();
 }

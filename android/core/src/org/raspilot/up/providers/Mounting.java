@@ -60,9 +60,8 @@ public final class Mounting {
     }
 
     /**
-     * Returns the aircraft's attitude.
-     *
-     * @param declinationDeg from magnetic to true north, east positive; 0 keeps the compass's north
+     * Returns the aircraft's attitude; the declination is from magnetic to true north, deg, east
+     * positive.
      */
     public Attitude attitude(Rotation rotation, double declinationDeg) {
         Attitude magnetic = Attitude.of(

@@ -10,7 +10,6 @@ import org.raspilot.up.wire.OrientationFrame;
  * attitude changes.
  */
 public final class OrientationProvider extends UpProvider {
-    /** The name under which it is registered. */
     public static final String NAME = "orientation";
     /** The lowest rate, Hz. */
     public static final int MIN_HZ = 50;

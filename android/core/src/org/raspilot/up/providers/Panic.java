@@ -24,10 +24,7 @@ public final class Panic {
     }
 
     /**
-     * Starts, or changes the delay.
-     *
-     * @param wantedMs 0 to 10000; a fraction is rounded up
-     * @throws IllegalArgumentException when it is out of range (a sentence)
+     * Starts, or changes the delay, 0 to 10000 ms; throws IllegalArgumentException (a sentence).
      */
     public void apply(double wantedMs) {
         if (!(wantedMs >= 0 && wantedMs <= MAX_DELAY_MS)) {

@@ -13,18 +13,9 @@ public final class ProviderStatus {
     public final String lastText;
     /** The problem in one sentence, or an empty text. */
     public final String problem;
-    /** How many messages left since it was registered. */
-    public final long sent;
 
-    public ProviderStatus(
-            String name,
-            String sensor,
-            ProviderState state,
-            double rateHz,
-            long ageMs,
-            String lastText,
-            String problem,
-            long sent) {
+    ProviderStatus(String name, String sensor, ProviderState state, double rateHz, long ageMs,
+            String lastText, String problem) {
         this.name = name;
         this.sensor = sensor;
         this.state = state;
@@ -32,10 +23,8 @@ public final class ProviderStatus {
         this.ageMs = ageMs;
         this.lastText = lastText;
         this.problem = problem;
-        this.sent = sent;
     }
 
-    /** What a provider does now. */
     public enum ProviderState {
         /** This device has no such sensor. */
         ABSENT,
@@ -43,7 +32,6 @@ public final class ProviderStatus {
         STOPPED,
         /** No reading yet, or no link to send it on. */
         WAITING,
-        /** Its readings leave. */
         SENDING,
         /** The sensor is present and has been silent for longer than allowed. */
         SILENT

@@ -12,12 +12,7 @@ public final class ProvidersController {
     private final Loop loop;
     private final Panic panic = new Panic();
     private final Map<String, UpProvider> providers = new LinkedHashMap<>();
-    private final List<ProvidersListener> listeners = new ArrayList<>();
-    private final ProvidersListener notifier = (name, sentence) -> {
-        for (ProvidersListener listener : new ArrayList<>(listeners)) {
-            listener.onProvider(name, sentence);
-        }
-    };
+    private ProvidersListener listener = (name, sentence) -> { };
     private MessageSink sink;
 
     /** Takes the loop on which everything happens. */
@@ -25,14 +20,12 @@ public final class ProvidersController {
         this.loop = loop;
     }
 
-    /** Returns the Panic that all providers follow. */
     public Panic panic() {
         return panic;
     }
 
-    /** Sets the listener of the providers' problems. */
-    public void addListener(ProvidersListener listener) {
-        listeners.add(listener);
+    public void setListener(ProvidersListener listener) {
+        this.listener = listener;
     }
 
     /**
@@ -46,25 +39,11 @@ public final class ProvidersController {
             throw new IllegalArgumentException(
                     "a provider '" + provider.name() + "' is registered already");
         }
-        provider.attach(loop, panic, notifier);
+        provider.attach(loop, panic, (name, sentence) -> listener.onProvider(name, sentence));
         providers.put(provider.name(), provider);
         if (sink != null) {
             provider.start(sink);
         }
-    }
-
-    /** Stops and removes a provider; returns whether there was one of that name. */
-    public boolean unregister(String name) {
-        UpProvider provider = providers.remove(name);
-        if (provider != null) {
-            provider.stop();
-        }
-        return provider != null;
-    }
-
-    /** Returns the provider of that name, or null. */
-    public UpProvider provider(String name) {
-        return providers.get(name);
     }
 
     /** Starts all in the order of their registration; they send into the outlet. */

@@ -28,11 +28,7 @@ public final class Quaternion {
         return new Quaternion(Math.cos(angleRad / 2), x * part, y * part, z * part);
     }
 
-    /**
-     * Returns the rotation that turns the three axes into these.
-     *
-     * @param a image of the first axis, of length one; b and c are orthogonal to it and each other
-     */
+    /** Returns the rotation that turns the three axes into these, orthogonal and of length one. */
     static Quaternion ofAxes(double[] a, double[] b, double[] c) {
         // The greatest of the four is at least one: the rest is taken from it (Shepperd, 1978).
         double fourW = 1 + a[0] + b[1] + c[2];

@@ -30,8 +30,6 @@ public final class RatePolicy {
     /**
      * Returns the cadence of a value that changes continuously: each reading is sent once, while it
      * is fresh, at most one in a period.
-     *
-     * @param silenceLimitMs time without a reading after which the sensor counts as silent
      */
     public static RatePolicy stream(double periodMs, long silenceLimitMs) {
         return new RatePolicy(

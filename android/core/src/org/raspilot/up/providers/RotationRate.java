@@ -19,15 +19,11 @@ public final class RotationRate {
     }
 
     /**
-     * Returns the mean rate between two rotations: what a device without a gyroscope has.
-     *
-     * @return null when the later one is not later
+     * Returns the mean rate between two rotations, the later one later: what a device without a
+     * gyroscope has.
      */
     public static RotationRate between(Rotation earlier, Rotation later) {
         double seconds = (later.timeMs - earlier.timeMs) / 1000.0;
-        if (seconds <= 0) {
-            return null;
-        }
         Quaternion turn = earlier.deviceToWorld.conjugate().times(later.deviceToWorld);
         double sine = Math.sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
         // A quaternion and its negative are one rotation: the shorter one is meant.

@@ -16,10 +16,7 @@ public interface SensorSource<R> {
     String name();
 
     /**
-     * Starts to measure and to deliver readings to the listener.
-     *
-     * @param periodMs the wanted period, ms; the sensor may be faster or slower
-     * @param listener receives the readings; one at a time
+     * Starts to deliver readings; the sensor may be faster or slower than the wanted period, ms.
      */
     void subscribe(long periodMs, SensorListener<R> listener);
 

@@ -2,13 +2,9 @@ package org.raspilot.up.providers;
 
 /** A side of the device, seen by a viewer of its screen held upright. */
 public enum Side {
-    /** The top edge. */
     TOP(0, 1, 0),
-    /** The right edge. */
     RIGHT(1, 0, 0),
-    /** The bottom edge. */
     BOTTOM(0, -1, 0),
-    /** The left edge. */
     LEFT(-1, 0, 0),
     SCREEN(0, 0, 1),
     BACK(0, 0, -1);

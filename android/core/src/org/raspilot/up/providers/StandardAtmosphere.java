@@ -30,9 +30,4 @@ public final class StandardAtmosphere {
         }
         return SEA_LEVEL_K / LAPSE_K_M * (1 - Math.pow(share, EXPONENT));
     }
-
-    /** Returns the pressure at an altitude of up to 11 km over the reference's, hPa. */
-    public static double pressureHPa(double altitudeM, double referenceHPa) {
-        return referenceHPa * Math.pow(1 - LAPSE_K_M / SEA_LEVEL_K * altitudeM, 1 / EXPONENT);
-    }
 }

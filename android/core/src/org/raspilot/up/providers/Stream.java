@@ -15,32 +15,22 @@ final class Stream implements Panic.Listener {
     private final Loop loop;
     private final Panic panic;
     private final RatePolicy ratePolicy;
-    private final Sender sender;
+    private final UpProvider provider;
     private final RateMeter rate = new RateMeter();
     private final Runnable pumping = () -> sendIfDue(false);
-    private Cancellable timer;
+    private Cancellable timer = Cancellable.DONE;
     private boolean isRunning;
     private boolean isFirst;
     private boolean isUnsent;
     private long newestMs = -1;
     private long lastMs;
     private double dueMs;
-    private long sent;
 
-    /** What it drives: the provider. */
-    interface Sender {
-        /** Returns whether there is a link now. */
-        boolean isOpen();
-
-        /** Sends the newest reading; returns whether it left. */
-        boolean transmit();
-    }
-
-    Stream(Loop loop, Panic panic, RatePolicy ratePolicy, Sender sender) {
+    Stream(Loop loop, Panic panic, RatePolicy ratePolicy, UpProvider provider) {
         this.loop = loop;
         this.panic = panic;
         this.ratePolicy = ratePolicy;
-        this.sender = sender;
+        this.provider = provider;
     }
 
     void begin() {
@@ -54,7 +44,7 @@ final class Stream implements Panic.Listener {
     /** Stops; nothing is sent afterwards. */
     void end() {
         isRunning = false;
-        cancel();
+        timer.cancel();
         panic.removeListener(this);
     }
 
@@ -82,10 +72,6 @@ final class Stream implements Panic.Listener {
         return newestMs;
     }
 
-    long sent() {
-        return sent;
-    }
-
     /** Returns how many left in the last second, Hz. */
     double hz() {
         return rate.hz(loop.nowMs());
@@ -93,10 +79,10 @@ final class Stream implements Panic.Listener {
 
     /** Sends a due value; a reading that arrived just now may be sent slightly early. */
     private void sendIfDue(boolean isPrompt) {
-        cancel();
+        timer.cancel();
         long nowMs = loop.nowMs();
         double wantedMs = wantedMs();
-        if (wantedMs == NEVER || !sender.isOpen()) {
+        if (wantedMs == NEVER || !provider.isOpen()) {
             return;
         }
         if (nowMs >= (isPrompt ? promptMs(wantedMs) : wantedMs)) {
@@ -126,7 +112,6 @@ final class Stream implements Panic.Listener {
                 : wantedMs;
     }
 
-    /** Returns the earliest time that Panic permits. */
     private double earliestMs() {
         return panic.isOn() ? lastMs + panic.delayMs() : 0;
     }
@@ -141,16 +126,8 @@ final class Stream implements Panic.Listener {
         dueMs = (isInStep ? dueMs : nowMs) + ratePolicy.periodMs;
         isFirst = false;
         lastMs = nowMs;
-        if (sender.transmit()) {
-            sent++;
+        if (provider.transmit()) {
             rate.count(nowMs);
-        }
-    }
-
-    private void cancel() {
-        if (timer != null) {
-            timer.cancel();
-            timer = null;
         }
     }
 }

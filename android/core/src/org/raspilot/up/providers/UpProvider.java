@@ -29,7 +29,6 @@ public abstract class UpProvider {
         this.ratePolicy = ratePolicy;
     }
 
-    /** Returns whether this device has the sensor. */
     protected abstract boolean isPresent();
 
     /** Returns the sensor's own name; called at each start, together with isPresent. */
@@ -75,17 +74,7 @@ public abstract class UpProvider {
         }
         loop = onLoop;
         listener = told;
-        stream = new Stream(onLoop, panic, ratePolicy, new Stream.Sender() {
-            @Override
-            public boolean isOpen() {
-                return UpProvider.this.isOpen(sink);
-            }
-
-            @Override
-            public boolean transmit() {
-                return guardedTransmit();
-            }
-        });
+        stream = new Stream(onLoop, panic, ratePolicy, this);
         detect();
     }
 
@@ -149,15 +138,8 @@ public abstract class UpProvider {
     /** Returns what the screen shows; only of a provider that is registered. */
     public final ProviderStatus status() {
         long newestMs = stream.newestMs();
-        return new ProviderStatus(
-                name,
-                sensorName,
-                state(),
-                stream.hz(),
-                newestMs < 0 ? -1 : loop.nowMs() - newestMs,
-                lastText(),
-                problem,
-                stream.sent());
+        return new ProviderStatus(name, sensorName, state(), stream.hz(),
+                newestMs < 0 ? -1 : loop.nowMs() - newestMs, lastText(), problem);
     }
 
     private boolean isSilent() {
@@ -182,7 +164,12 @@ public abstract class UpProvider {
         }
     }
 
-    private boolean guardedTransmit() {
+    final boolean isOpen() {
+        return isOpen(sink);
+    }
+
+    /** Sends the newest reading; returns whether it left. */
+    final boolean transmit() {
         try {
             return transmit(sink);
         } catch (RuntimeException fault) {

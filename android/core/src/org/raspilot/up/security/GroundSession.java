@@ -36,11 +36,7 @@ public final class GroundSession {
         this(pairing.aircraft, pairing, seeded(new SecureRandom()));
     }
 
-    /**
-     * Draws its nonces from {@code random}.
-     *
-     * @param peer the name in every MAC
-     */
+    /** Takes the name in every MAC, and the source of the nonces. */
     GroundSession(String peer, Pairing pairing, Random random) {
         aircraft = Hmac.ascii(peer);
         keyId = pairing.keyId();

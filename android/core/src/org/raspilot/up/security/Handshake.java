@@ -80,7 +80,6 @@ public final class Handshake {
         return new Handshake(body);
     }
 
-    /** Returns the body of a hello. */
     static byte[] hello(byte[] aircraft, byte[] keyId, byte[] secret, byte[] nonce) {
         return sealed(HELLO, aircraft, secret, ByteBuffer.allocate(KEY_ID_BYTES + NONCE_BYTES)
                 .put(keyId).put(nonce).array());

@@ -19,7 +19,6 @@ final class Hmac {
     private Hmac() {
     }
 
-    /** Returns HKDF-Extract of a secret. */
     static byte[] extract(byte[] salt, byte[] secret) {
         return hmac(salt, secret);
     }
@@ -32,7 +31,6 @@ final class Hmac {
         return hmac(key, block);
     }
 
-    /** Returns the MAC of the parts. */
     static byte[] mac(byte[] key, byte[]... parts) {
         return Arrays.copyOf(hmac(key, prefixed(parts)), MAC_BYTES);
     }

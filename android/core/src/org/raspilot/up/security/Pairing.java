@@ -12,7 +12,6 @@ public final class Pairing {
     public final String aircraft;
     /** The role of the key at the time of the pairing. */
     public final String role;
-    /** The name of the key. */
     public final String name;
     private final String text;
     private final byte[] keyId;
@@ -39,7 +38,6 @@ public final class Pairing {
         return text;
     }
 
-    /** Returns the name of the key and its role. */
     @Override
     public String toString() {
         return name + " (" + role + ")";
@@ -53,7 +51,6 @@ public final class Pairing {
         return secret.clone();
     }
 
-    /** Returns the hexadecimal digits of bytes. */
     static String digits(byte[] bytes) {
         final StringBuilder digits = new StringBuilder();
         for (byte each : bytes) {

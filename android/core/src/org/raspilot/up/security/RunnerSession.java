@@ -62,7 +62,6 @@ public final class RunnerSession {
         return new String(opened, UTF_8);
     }
 
-    /** Returns whether a body is the answer to the hello. */
     private boolean isAnswer(byte[] body) throws EnvelopeException {
         final Handshake said =
                 body[0] == BinaryLine.HANDSHAKE ? session.onHandshake(body) : null;

@@ -101,11 +101,7 @@ final class ServerTrust implements X509TrustManager {
         return new TlsException("tls_unknown_ca", "its certificate is not of our CA");
     }
 
-    /**
-     * Returns whether a certificate's alternative names have a name or address.
-     *
-     * @param names as {@link X509Certificate#getSubjectAlternativeNames} returns them, null: none
-     */
+    /** Returns whether alternative names, null: none, have a name or address. */
     static boolean isNamed(Collection<List<?>> names, String host)
             throws CertificateParsingException {
         if (names != null) {

@@ -28,7 +28,6 @@ public final class TlsException extends CertificateException {
         this.code = code;
     }
 
-    /** Returns the fault that an exception of an engine is about. */
     static TlsException of(Exception fault) {
         if (fault instanceof TlsException) {
             return (TlsException) fault;

@@ -10,7 +10,6 @@ public final class ControlLine {
         SEAT_ASKED,
         /** You command now; {@link #token} resumes it. */
         SEAT_COMMAND,
-        /** You listen now. */
         SEAT_LISTEN,
         /** Ground {@link #number} commands; null: none. */
         SEAT_HOLDER,
@@ -34,12 +33,10 @@ public final class ControlLine {
         this.token = token;
     }
 
-    /** Returns the line that requests the seat that commands. */
     public static byte[] seatRequest() {
         return Utf8.encode("UP1 seat request\n");
     }
 
-    /** Returns the line with which the holder leaves the seat free. */
     public static byte[] seatRelease() {
         return Utf8.encode("UP1 seat release\n");
     }
@@ -49,7 +46,6 @@ public final class ControlLine {
         return Utf8.encode("UP1 seat give to=" + number + "\n");
     }
 
-    /** Returns the line that requests a key of packed telemetry. */
     public static byte[] keyRequest() {
         return Utf8.encode("UP1 key\n");
     }

@@ -15,13 +15,7 @@ public final class Hello {
     private Hello() {
     }
 
-    /**
-     * Returns the line with its LF.
-     *
-     * @param seat COMMAND or LISTEN
-     * @param token null: none yet
-     * @throws IllegalArgumentException when one of them is malformed
-     */
+    /** Returns the line with its LF; {@code token} null: none yet. */
     public static byte[] ofGround(String aircraft, ProxyRole seat, String token) {
         if (!isAircraftName(aircraft)) {
             throw new IllegalArgumentException(
@@ -38,12 +32,10 @@ public final class Hello {
                 + (token == null ? "" : " token=" + token) + " packed=1 attitude=1\n");
     }
 
-    /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */
     public static boolean isAircraftName(String text) {
         return text != null && NAME.matcher(text).matches();
     }
 
-    /** Returns whether a text has the form of a resume token. */
     public static boolean isToken(String text) {
         return text != null && TOKEN.matcher(text).matches();
     }

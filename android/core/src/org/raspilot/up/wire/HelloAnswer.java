@@ -12,8 +12,6 @@ public final class HelloAnswer {
     private static final Pattern REFUSED =
             Pattern.compile("UP1 error code=([a-z]{1,32}) reason=\"([^\"]{0,400})\".*");
 
-    /** The aircraft's name, or null when refused or absent. */
-    public final String aircraft;
     /** The seat that was given, or null when refused. */
     public final ProxyRole role;
     /** The token that resumes the seat, or null when refused. */
@@ -23,15 +21,13 @@ public final class HelloAnswer {
     /** Why it was refused, or null when accepted. */
     public final String reason;
 
-    private HelloAnswer(String aircraft, ProxyRole seat, String token, String code, String reason) {
-        this.aircraft = aircraft;
+    private HelloAnswer(ProxyRole seat, String token, String code, String reason) {
         this.role = seat;
         this.token = token;
         this.code = code;
         this.reason = reason;
     }
 
-    /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
     }
@@ -47,13 +43,13 @@ public final class HelloAnswer {
         }
         Matcher refused = REFUSED.matcher(text);
         if (refused.matches()) {
-            return new HelloAnswer(null, null, null, refused.group(1), refused.group(2));
+            return new HelloAnswer(null, null, refused.group(1), refused.group(2));
         }
         ProxyLine words = new ProxyLine(text);
         ProxyRole seat = ProxyRole.ofWord(words.value("seat"));
         if (!words.word(1).equals("ok") || seat == null || !Hello.isToken(words.value("token"))) {
             return null;
         }
-        return new HelloAnswer(words.value("aircraft"), seat, words.value("token"), null, null);
+        return new HelloAnswer(seat, words.value("token"), null, null);
     }
 }

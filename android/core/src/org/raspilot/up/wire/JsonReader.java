@@ -29,7 +29,6 @@ final class JsonReader {
         this.isStrict = isStrict;
     }
 
-    /** Returns the value that the whole text is. */
     Object read() throws MalformedException {
         skipSpace();
         Object value = readValue();
@@ -155,7 +154,6 @@ final class JsonReader {
         return read;
     }
 
-    /** Takes the next character of a text. */
     private char next() throws MalformedException {
         if (at >= text.length()) {
             throw notJson("a text has no end");

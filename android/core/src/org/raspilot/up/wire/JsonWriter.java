@@ -14,7 +14,6 @@ final class JsonWriter {
     private final Object[] place = new Object[Json.MAX_NESTING];
     private int depth;
 
-    /** Returns the text of a value. */
     String write(Object value) {
         append(value);
         return out.toString();

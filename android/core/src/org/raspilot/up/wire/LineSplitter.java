@@ -7,7 +7,7 @@ import java.util.List;
 /**
  * Splits a stream of bytes into lines at LF and removes a CR before it, except from a binary line.
  *
- * <p>A line that is too long is dropped up to its LF and counted; the buffer never exceeds the
+ * <p>A line that is too long is dropped up to its LF; the buffer never exceeds the
  * bound. Empty lines are heartbeats and are left out. Source: docs/protocols.md 4.
  */
 public final class LineSplitter {
@@ -18,9 +18,7 @@ public final class LineSplitter {
     private byte[] held = new byte[256];
     private int heldLength;
     private boolean isSkipping;
-    private long droppedTooLong;
 
-    /** Creates a splitter for lines of General Messages. */
     public LineSplitter() {
         this(MAX_LINE_BYTES);
     }
@@ -51,18 +49,12 @@ public final class LineSplitter {
         isSkipping = false;
     }
 
-    /** Returns how many lines were dropped because they were too long. */
-    public long droppedTooLong() {
-        return droppedTooLong;
-    }
-
     private void hold(byte[] bytes, int from, int to) {
         if (isSkipping) {
             return;
         }
         int length = heldLength + to - from;
         if (length > longestContent) {
-            droppedTooLong++;
             heldLength = 0;
             isSkipping = true;
             return;

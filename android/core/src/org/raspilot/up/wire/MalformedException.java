@@ -26,7 +26,6 @@ public final class MalformedException extends Exception {
         this.id = id;
     }
 
-    /** Returns why it is not a message. */
     public String reason() {
         return getMessage();
     }

@@ -9,7 +9,6 @@ import java.nio.ByteBuffer;
  * docs/protocols.md 3.
  */
 public final class OrientationFrame {
-    /** Bytes of a frame. */
     public static final int SIZE = 24;
     public static final float MAX_ANGLE_DEG = 360f;
     public static final float MAX_RATE_DEG_S = 4000f;
@@ -42,7 +41,6 @@ public final class OrientationFrame {
                 && isWithin(yawRateDegS, MAX_RATE_DEG_S);
     }
 
-    /** Returns the 24 bytes. */
     public byte[] toBytes() {
         return ByteBuffer.allocate(SIZE)
                 .putFloat(rollDeg).putFloat(pitchDeg).putFloat(yawDeg)

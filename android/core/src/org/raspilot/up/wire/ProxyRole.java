@@ -11,7 +11,6 @@ public enum ProxyRole {
     /** The aircraft itself; sent only by the proxy, never requested. */
     AIR;
 
-    /** Returns the word on the wire. */
     public String word() {
         return name().toLowerCase(Locale.ROOT);
     }

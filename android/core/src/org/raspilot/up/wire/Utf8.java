@@ -37,7 +37,6 @@ final class Utf8 {
         return text.toString();
     }
 
-    /** Returns the bytes of a text. */
     static byte[] encode(String text) {
         return text.getBytes(UTF_8);
     }

@@ -19,7 +19,7 @@ import org.raspilot.up.providers.TestSource;
 
 /** A phone on board whose sensors, network and time a test controls. */
 final class AirborneBench implements Speaker, AirborneListener {
-    static final Fix HERE = new Fix(48.1, 17.1, 150.0, null, null, null);
+    static final Fix HERE = new Fix(48.1, 17.1, 150.0, null, null, null, null, null);
     static final Rotation LEVEL = new Rotation(1, 0, 0, 0, 0);
 
     static final int ROOM = 1 << 30;

@@ -2,24 +2,19 @@ package org.raspilot.up.airborne;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
-import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
 import java.util.ArrayList;
 import java.util.List;
 import org.junit.After;
 import org.junit.Test;
-import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
-import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.loop.ScriptedNetwork;
 import org.raspilot.up.providers.AltitudeProvider.Pressure;
-import org.raspilot.up.providers.Attitude;
 import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
-import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.Side;
 
 /** What a phone on board sends, in which rhythm, over lost links, and what it shows. */
@@ -74,7 +69,7 @@ public final class AirborneTest {
         connection.room = 0;
         bench.fly(20, 1800);
         bench.loop.advance(1000);
-        bench.gps.give(new Fix(1, 2, null, null, null, null));
+        bench.gps.give(new Fix(1, 2, null, null, null, null, null, null));
         connection.makeRoom(Integer.MAX_VALUE);
         List<String> lines = bench.lines();
         assertEquals(1, AirborneBench.count(lines, "up.location.update"));
@@ -89,7 +84,7 @@ public final class AirborneTest {
         bench.fly(20, 1000);
         bench.general().end("the Raspberry Pi closed the connection");
         bench.loop.advance(0);
-        bench.gps.give(new Fix(11, 11, null, null, null, null));
+        bench.gps.give(new Fix(11, 11, null, null, null, null, null, null));
         bench.barometer.give(new Pressure(900));
         bench.rotation.give(AirborneBench.LEVEL);
         bench.loop.advance(5000);
@@ -103,17 +98,6 @@ public final class AirborneTest {
     }
 
     @Test
-    public void whatWaitedOnTheOldConnectionDiesWithIt() {
-        bench.connected(AirborneBench.fixed().build());
-        bench.general().room = 30;
-        bench.gps.give(new Fix(11, 11, null, null, null, null));
-        bench.general().end("gone");
-        bench.loop.advance(5000);
-        bench.accept(50001);
-        assertEquals("[]", bench.lines().toString());
-    }
-
-    @Test
     public void afterTheStopNothingIsLeftBehind() {
         Airborne airborne = bench.connected(AirborneBench.blackBox().build());
         bench.accept(50000);
@@ -124,7 +108,6 @@ public final class AirborneTest {
         assertTrue(bench.to(50000).isClosed);
         assertEquals(0, bench.loop.pendingTimers());
         assertEquals(null, bench.gps.listener);
-        assertFalse(airborne.status().isRunning);
         airborne.start();
         bench.loop.advance(0);
         bench.accept(50001);
@@ -145,13 +128,9 @@ public final class AirborneTest {
         bench.hear("{\"name\": \"android.speak\", \"data\": {}}");
         bench.hear("nonsense");
         AirborneStatus status = airborne.status();
-        assertTrue(status.isRunning);
         assertTrue(status.isConnected);
         assertEquals("connected to 10.0.0.1:50001", status.linkText);
         assertEquals("10.0.0.1:50001:50000", status.endpoint.toString());
-        assertEquals(AirborneMode.FLIGHT_CONTROLLER, status.mode);
-        assertEquals(OrientationTransport.OFF, status.orientation);
-        assertEquals("off", status.orientationText);
         assertEquals(150, status.panicDelayMs);
         assertEquals(1, status.counters.connections);
         assertEquals(1, status.counters.telemetry);
@@ -174,7 +153,6 @@ public final class AirborneTest {
                 bench.events.toString());
         assertEquals(2, bench.lines().size());
         assertEquals(ProviderState.ABSENT, airborne.status().providers.get(1).state);
-        assertThrows(IllegalStateException.class, () -> airborne.calibrate(Side.TOP));
     }
 
     @Test
@@ -204,31 +182,15 @@ public final class AirborneTest {
     }
 
     @Test
-    public void calibrationHoldsForHeadingAndOrientationAtOnce() {
+    public void aMountingHoldsForHeadingAndOrientationAtOnce() {
         Airborne airborne = bench.connected(AirborneBench.blackBox().build());
         bench.accept(50000);
-        Rotation tilted = Mounting.FLAT.rotation(new Attitude(8, -12, 40), 0);
-        bench.rotation.give(tilted);
-        bench.frames();
-        Mounting mounting = airborne.calibrate(Side.RIGHT);
+        airborne.setMounting(Mounting.of(Side.RIGHT, Side.SCREEN));
         bench.loop.advance(200);
-        bench.rotation.give(tilted);
-        Attitude level = mounting.attitude(tilted, 0);
-        assertEquals(0, level.rollDeg, 1e-6);
-        assertEquals(0, level.pitchDeg, 1e-6);
-        ProviderStatus heading = airborne.status().providers.get(2);
-        assertEquals("heading " + Math.round(level.yawDeg * 10) / 10.0 + ", mode actual",
-                heading.lastText);
-        assertTrue(airborne.status().providers.get(4).lastText.matches(
-                "roll -?0.0, pitch -?0.0, yaw [0-9.]+"));
-    }
-
-    @Test
-    public void aRotationOfLongAgoIsNoCalibration() {
-        Airborne airborne = bench.start(AirborneBench.fixed().build());
         bench.rotation.give(AirborneBench.LEVEL);
-        bench.loop.advance(1001);
-        assertThrows(IllegalStateException.class, () -> airborne.calibrate(Side.TOP));
+        assertEquals("heading 90.0, mode actual", airborne.status().providers.get(2).lastText);
+        assertTrue(airborne.status().providers.get(4).lastText.matches(
+                "roll -?0.0, pitch -?0.0, yaw 90.0"));
     }
 
     @Test

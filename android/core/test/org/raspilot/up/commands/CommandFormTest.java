@@ -51,7 +51,6 @@ public final class CommandFormTest {
     @Test
     public void theCatalogueOfTheAppIsRead() {
         CommandForm arm = installed.form("up.arm");
-        assertTrue(arm.needsBeacon);
         assertEquals("pilot", arm.role(Collections.<String, Object>emptyMap()));
         assertEquals(0, arm.fields().size());
         CommandField period = installed.form("up.telemetry.frequency").field("frequency");

@@ -60,7 +60,6 @@ public final class EventMonitorTest {
         assertEquals("Raspberry Pi busy (99 %): telemetry every 150 ms",
                 events.get(before + 3).text);
         assertTrue(events.get(before + 4).text.endsWith(": a; b"));
-        assertEquals(before + 3, events.get(before + 2).number);
     }
 
     @Test
@@ -121,7 +120,7 @@ public final class EventMonitorTest {
         bench.open(ProxyRole.LISTEN);
         frame("{\"arduino\": {\"failsafe\": true}}");
         assertTrue(bench.ground.alarms().snapshot().has("failsafe"));
-        assertTrue(bench.ground.alarms().snapshot().isLoud());
+        assertTrue(isLoud());
         final long version = bench.ground.alarms().snapshot().version;
         frames(19, "{\"arduino\": {\"failsafe\": false}}");
         assertTrue(bench.ground.alarms().snapshot().has("failsafe"));
@@ -135,16 +134,16 @@ public final class EventMonitorTest {
         bench.open(ProxyRole.LISTEN);
         frame("{\"load\": {\"panic\": true}}");
         assertAlarms("");
-        assertFalse(bench.ground.alarms().snapshot().isLoud());
+        assertFalse(isLoud());
         frame("{\"android\": {\"batteryLevel\": 19}}");
-        assertTrue(bench.ground.alarms().snapshot().isLoud());
+        assertTrue(isLoud());
         frames(25, "{}");
         frame("{\"arduino\": {\"receiver_valid\": false}, \"armed\": false}");
         assertAlarms("WARNING receiver receiver_lost");
-        assertFalse(bench.ground.alarms().snapshot().isLoud());
+        assertFalse(isLoud());
         bench.loop.advance(901);
         assertAlarms("ALARM silent silent, WARNING receiver receiver_lost");
-        assertTrue(bench.ground.alarms().snapshot().isLoud());
+        assertTrue(isLoud());
     }
 
     @Test
@@ -199,5 +198,9 @@ public final class EventMonitorTest {
         assertEquals(before, bench.changes);
         frame("{\"armed\": true}");
         assertEquals(before + 1, bench.changes);
+    }
+
+    private boolean isLoud() {
+        return bench.ground.alarms().snapshot().active.stream().anyMatch(each -> each.isLoud());
     }
 }

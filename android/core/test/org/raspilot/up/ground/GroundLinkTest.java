@@ -79,15 +79,13 @@ public final class GroundLinkTest {
         bench.say("UP1 seat asked by=5");
         assertEquals(Integer.valueOf(5), bench.status.requestedBy);
         assertTrue(bench.status.controlText().contains("ground 5"));
-        bench.ground.dismissControlRequest();
-        assertNull(bench.status.requestedBy);
         assertTrue(bench.ground.giveControl(5));
         assertEquals("UP1 seat give to=5\n", bench.peer().written());
         assertEquals(ControlStatus.OURS, bench.status.control);
         assertTrue(bench.ground.releaseControl());
         assertEquals("UP1 seat release\n", bench.peer().written());
         assertEquals(ControlStatus.LATER, bench.status.control);
-        bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.DISARM), null, bench.keeping());
         assertEquals("no_control", bench.answer().code);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=none");
@@ -121,7 +119,6 @@ public final class GroundLinkTest {
         bench.loop.advance(1);
         assertTrue(bench.peer().isClosed);
         assertEquals("hello_timeout", bench.status.code);
-        assertEquals(2, bench.status.failures);
     }
 
     @Test
@@ -137,7 +134,6 @@ public final class GroundLinkTest {
         bench.accept(ProxyRole.LISTEN);
         bench.loop.advance(0);
         assertEquals("", bench.status.rejection);
-        assertEquals(0, bench.status.failures);
     }
 
     @Test
@@ -147,7 +143,6 @@ public final class GroundLinkTest {
         bench.loop.advance(0);
         assertEquals(LinkState.WAITING, bench.status.link);
         assertTrue(bench.status.linkText().contains("connection refused"));
-        assertEquals(1, bench.status.failures);
     }
 
     @Test
@@ -168,8 +163,6 @@ public final class GroundLinkTest {
         assertEquals(ControlStatus.OURS, bench.status.control);
         bench.say("UP1 seat listen");
         assertEquals(ControlStatus.OURS, bench.status.control);
-        bench.loop.advance(1000);
-        assertEquals(1, bench.status.counters.strangeControl);
         assertFalse(bench.ground.requestControl());
     }
 
@@ -184,11 +177,10 @@ public final class GroundLinkTest {
         bench.frame(1, "{\"altitude\": 7}");
         assertEquals(1, bench.frames.size());
         assertEquals(7.0, bench.frames.get(0).number("altitude"), 0);
-        assertEquals(1, bench.ground.status().counters.malformed);
     }
 
     @Test
-    public void linesThatSayNothingKnownAreCounted() {
+    public void linesThatSayNothingKnownAreDropped() {
         bench.open(ProxyRole.LISTEN);
         bench.say("UP1 seat");
         bench.say("UP1 ok aircraft=glider seat=command token=" + GroundBench.TOKEN);
@@ -200,11 +192,7 @@ public final class GroundLinkTest {
             tooLong.append("aaaaaaaaaa");
         }
         bench.say(tooLong.toString());
-        final GroundCounters counters = bench.ground.status().counters;
-        assertEquals(3, counters.strangeControl);
-        assertEquals(2, counters.malformed);
-        assertEquals(1, counters.tooLong);
-        assertEquals(6, counters.dropped());
+        assertTrue(bench.frames.isEmpty());
         assertEquals(ProxyRole.LISTEN, bench.ground.status().role);
     }
 

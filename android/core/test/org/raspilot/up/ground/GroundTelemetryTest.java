@@ -28,14 +28,14 @@ public final class GroundTelemetryTest {
         bench.open(ProxyRole.LISTEN);
         stamped(1, 70000);
         bench.loop.advance(100);
-        assertEquals(Long.valueOf(0), stamped(2, 70100).ageMs(bench.loop.nowMs()));
+        assertEquals(Long.valueOf(0), stamped(2, 70100).age.frameMs(bench.loop.nowMs()));
         bench.loop.advance(600);
         // Made 200 ms after the one before, it comes 600 ms after that one.
         final Telemetry held = stamped(3, 70300);
-        assertEquals(400, held.ageMs(bench.loop.nowMs()), 1);
-        assertEquals(430, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
+        assertEquals(400, held.age.frameMs(bench.loop.nowMs()), 1);
+        assertEquals(430, held.age.readingMs("orientation", bench.loop.nowMs()), 1);
         bench.loop.advance(300);
-        assertEquals(730, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
+        assertEquals(730, held.age.readingMs("orientation", bench.loop.nowMs()), 1);
         assertFalse(bench.status.isSilent);
         bench.loop.advance(300);
         assertTrue(bench.status.isSilent);
@@ -58,9 +58,9 @@ public final class GroundTelemetryTest {
         bench.loop.advance(60);
         bench.say("UP1 ok aircraft=glider seat=listen token=" + GroundBench.TOKEN);
         assertEquals(60, bench.status.roundTripMs, 0);
-        assertEquals(Long.valueOf(30), stamped(1, 5000).ageMs(bench.loop.nowMs()));
+        assertEquals(Long.valueOf(30), stamped(1, 5000).age.frameMs(bench.loop.nowMs()));
         bench.loop.advance(150);
-        assertEquals(Long.valueOf(80), stamped(2, 5100).ageMs(bench.loop.nowMs()));
+        assertEquals(Long.valueOf(80), stamped(2, 5100).age.frameMs(bench.loop.nowMs()));
     }
 
     @Test
@@ -84,10 +84,10 @@ public final class GroundTelemetryTest {
         bench.open(ProxyRole.LISTEN);
         stamped(1, 900000);
         bench.loop.advance(100);
-        assertEquals(Long.valueOf(0), stamped(2, 100).ageMs(bench.loop.nowMs()));
+        assertEquals(Long.valueOf(0), stamped(2, 100).age.frameMs(bench.loop.nowMs()));
         bench.loop.advance(100);
-        assertEquals(Long.valueOf(0), stamped(5000000, 150).ageMs(bench.loop.nowMs()));
-        assertEquals(0, bench.ground.status().counters.lostFrames);
+        assertEquals(Long.valueOf(0), stamped(5000000, 150).age.frameMs(bench.loop.nowMs()));
+        assertEquals(0, bench.ground.status().lostFrames);
     }
 
     @Test
@@ -131,8 +131,8 @@ public final class GroundTelemetryTest {
         bench.fly(1, 20);
         bench.fly(25, 5);
         final GroundStatus now = bench.ground.status();
-        assertEquals(4, now.counters.lostFrames);
-        assertEquals(25, now.counters.frames);
+        assertEquals(4, now.lostFrames);
+        assertEquals(25, now.frames);
         assertEquals(10, now.rateHz, 0.01);
         bench.loop.advance(10001);
         assertNull(bench.ground.status().rateHz);
@@ -143,9 +143,9 @@ public final class GroundTelemetryTest {
         bench.open(ProxyRole.LISTEN);
         bench.frame(1, "{\"uplink\": {\"left_out\": 7}}");
         bench.frame(6, "{\"uplink\": {\"left_out\": 10}}");
-        assertEquals(1, bench.ground.status().counters.lostFrames);
+        assertEquals(1, bench.ground.status().lostFrames);
         bench.frame(10, "{\"uplink\": {\"left_out\": 13}}");
-        assertEquals(1, bench.ground.status().counters.lostFrames);
+        assertEquals(1, bench.ground.status().lostFrames);
     }
 
     @Test
@@ -154,7 +154,7 @@ public final class GroundTelemetryTest {
         bench.frame(Long.MAX_VALUE, "{}");
         bench.frame(Long.MIN_VALUE, "{}");
         bench.frame(Long.MAX_VALUE, "{}");
-        assertEquals(0, bench.ground.status().counters.lostFrames);
+        assertEquals(0, bench.ground.status().lostFrames);
     }
 
     @Test
@@ -209,7 +209,8 @@ public final class GroundTelemetryTest {
         final GroundStatus now = bench.ground.status();
         assertEquals("operator", now.commandRole);
         assertEquals(true, now.tuneInFlight);
-        assertEquals(48.99, now.home.latitudeDeg, 1e-5);
-        assertEquals(15.0, now.home.longitudeDeg, 1e-9);
+        final Home home = bench.ground.track().snapshot().origin;
+        assertEquals(48.99, home.latitudeDeg, 1e-5);
+        assertEquals(15.0, home.longitudeDeg, 1e-9);
     }
 }

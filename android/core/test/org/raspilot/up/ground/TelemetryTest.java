@@ -73,11 +73,11 @@ public final class TelemetryTest {
 
     @Test
     public void ageIsThatOnTheAircraftOnTheWayAndSince() {
-        assertEquals(Long.valueOf(200), frame.ageMs(10000));
-        assertEquals(Long.valueOf(650), frame.ageMs(10450));
-        assertEquals(Long.valueOf(100 + 200 + 450), frame.readingAgeMs("orientation", 10450));
-        assertNull(frame.readingAgeMs("altitude", 10450));
-        assertNull(frame.readingAgeMs("rx", 10450));
+        assertEquals(Long.valueOf(200), frame.age.frameMs(10000));
+        assertEquals(Long.valueOf(650), frame.age.frameMs(10450));
+        assertEquals(Long.valueOf(100 + 200 + 450), frame.age.readingMs("orientation", 10450));
+        assertNull(frame.age.readingMs("altitude", 10450));
+        assertNull(frame.age.readingMs("rx", 10450));
     }
 
     @Test
@@ -95,8 +95,8 @@ public final class TelemetryTest {
 
     @Test
     public void nothingOfAFrameIsLiveAfterTheSecondIsOver() {
-        assertFalse(frame.isSilent(10700));
-        assertTrue(frame.isSilent(10701));
+        assertFalse(frame.age.isSilent(10700));
+        assertTrue(frame.age.isSilent(10701));
         for (String path : new String[] {"altitude", "android.batteryLevel", "armed", "vetoes"}) {
             assertEquals(path, Freshness.STALE, frame.freshness(path, 10701));
         }
@@ -106,7 +106,7 @@ public final class TelemetryTest {
     public void aLostLinkMakesEverythingStaleAtOnce() {
         final Telemetry lost = frame.withLostLink();
         assertEquals(Freshness.STALE, lost.freshness("altitude", 10000));
-        assertTrue(lost.isSilent(10000));
+        assertTrue(lost.age.isSilent(10000));
         assertTrue(lost.age.isLinkLost);
         assertEquals(12, lost.number("altitude"), 0);
     }
@@ -114,16 +114,16 @@ public final class TelemetryTest {
     @Test
     public void aFrameThatWasLongOnItsWayIsLate() {
         final Telemetry late = Telemetry.of(GroundBench.json(FRAME), 7L, 10000, 3000);
-        assertTrue(late.isSilent(10000));
+        assertTrue(late.age.isSilent(10000));
         assertTrue(late.age.isLate(10000));
         assertFalse(frame.age.isLate(10000));
     }
 
     @Test
     public void beforeTheFirstFrameThereIsNothing() {
-        assertNull(Telemetry.EMPTY.ageMs(5));
+        assertNull(Telemetry.EMPTY.age.frameMs(5));
         assertNull(Telemetry.EMPTY.number("altitude"));
-        assertTrue(Telemetry.EMPTY.isSilent(5));
+        assertTrue(Telemetry.EMPTY.age.isSilent(5));
         assertEquals(Freshness.NONE, Telemetry.EMPTY.freshness("altitude", 5));
     }
 
@@ -164,9 +164,7 @@ public final class TelemetryTest {
                 new Track().update(hostile, null, 0);
                 new HomeEstimator().update(hostile);
                 new EventMonitor(new EventLog(), new Alarms()).update(hostile,
-                        new GroundStatus(new LinkStatus(), false, null, hostile, 0, null,
-                                new GroundCounters(new LinkStatus(), new TelemetryStream(),
-                                        0, 0)), 0);
+                        new GroundStatus(new LinkStatus(), false, new TelemetryStream(), 0), 0);
             } catch (RuntimeException fault) {
                 throw new AssertionError("seed " + seed, fault);
             }

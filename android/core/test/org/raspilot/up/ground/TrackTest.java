@@ -43,7 +43,6 @@ public final class TrackTest {
         fly(100, 50, null);
         assertEquals(100, points().get(1).northM, 0.1);
         assertEquals(50, points().get(1).eastM, 0.1);
-        assertEquals(30, points().get(1).altitudeM, 0);
         assertFalse(track.snapshot().isOriginHome);
         final Home home = new Home(60 - 10 / DEGREE_M, 15);
         fly(200, 50, home);
@@ -138,17 +137,6 @@ public final class TrackTest {
         track.update(GroundBench.telemetry(
                 "{\"location\": {\"latitude\": 0, \"longitude\": -179.9999}}", 2), null, 2);
         assertEquals(0.0002 * DEGREE_M, points().get(1).eastM, 0.01);
-    }
-
-    @Test
-    public void clearedItBeginsAnew() {
-        fly(0, 0, null);
-        fly(100, 0, null);
-        track.clear();
-        assertTrue(points().isEmpty());
-        fly(100, 0, null);
-        assertEquals(0, points().get(0).northM, 0.01);
-        assertFalse(points().get(0).isAfterSilence);
     }
 
     @Test

@@ -16,7 +16,6 @@ public final class ManualLoop implements Loop {
     private final ArrayDeque<Runnable> posted = new ArrayDeque<>();
     private final TimerQueue timers = new TimerQueue();
     private volatile long nowMs;
-    private volatile Thread thread = Thread.currentThread();
 
     /**
      * Creates a loop at 0 ms.
@@ -37,21 +36,16 @@ public final class ManualLoop implements Loop {
         if (stepMs < 0) {
             throw new IllegalArgumentException("time does not go back: " + stepMs);
         }
-        thread = Thread.currentThread();
         final long untilMs = nowMs + stepMs;
         runPosted();
         TimerQueue.Timer timer = timers.take(untilMs, Long.MAX_VALUE);
         while (timer != null) {
-            nowMs = timer.time();
-            guard.run(timer.call());
+            nowMs = timer.time;
+            guard.run(timer.call);
             runPosted();
             timer = timers.take(untilMs, Long.MAX_VALUE);
         }
         nowMs = untilMs;
-    }
-
-    public long faults() {
-        return guard.faults();
     }
 
     public int pendingTimers() {
@@ -73,11 +67,6 @@ public final class ManualLoop implements Loop {
     @Override
     public Cancellable schedule(long delayMs, Runnable call) {
         return timers.add(nowMs + Math.min(Math.max(0, delayMs), Long.MAX_VALUE / 2), call);
-    }
-
-    @Override
-    public boolean isInLoop() {
-        return Thread.currentThread() == thread;
     }
 
     @Override

@@ -61,9 +61,7 @@ public final class SelectorLoopTest {
             loop.schedule(20, note("second"));
             loop.schedule(10, note("first"));
             final Cancellable cancelled = loop.schedule(15, note("cancelled"));
-            assertTrue(cancelled.isPending());
             cancelled.cancel();
-            assertFalse(cancelled.isPending());
             return null;
         });
         running.await("the last timer", has("last"));
@@ -99,7 +97,6 @@ public final class SelectorLoopTest {
             loop.schedule(1, note("other"));
         });
         running.await("the other timer", has("other"));
-        assertEquals(3, loop.faults());
         assertEquals(3, running.faults.all().size());
         assertEquals("a timer", running.faults.all().get(2).getMessage());
     }
@@ -114,7 +111,6 @@ public final class SelectorLoopTest {
         other.post(thrower(new IllegalStateException("a call")));
         other.post(() -> latch.countDown());
         assertTrue(latch.await(20, TimeUnit.SECONDS));
-        assertEquals(2, other.faults());
         other.stop();
     }
 

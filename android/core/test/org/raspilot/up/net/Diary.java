@@ -7,25 +7,25 @@ import java.util.List;
 /** Records the events of an {@link UpSocket}; a line is recorded with {@code < } before it. */
 class Diary implements UpSocketListener {
     final List<String> told = new ArrayList<>();
-    final List<UpSocketStatus.State> states = new ArrayList<>();
+    int statuses;
 
     @Override
-    public void onConnected(UpSocket socket) {
+    public void onConnected() {
         told.add("connected");
     }
 
     @Override
-    public void onReceived(UpSocket socket, byte[] bytes, int length) {
+    public void onReceived(byte[] bytes, int length) {
         told.add("< " + new String(bytes, 0, length, Charset.forName("UTF-8")));
     }
 
     @Override
-    public void onLost(UpSocket socket, String reason) {
+    public void onLost(String reason) {
         told.add("lost: " + reason);
     }
 
     @Override
-    public void onStatus(UpSocket socket) {
-        states.add(socket.status().state);
+    public void onStatus() {
+        statuses++;
     }
 }

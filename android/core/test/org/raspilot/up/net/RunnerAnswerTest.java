@@ -6,7 +6,6 @@ import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
-import org.raspilot.up.net.SettingRules.InvalidSettingException;
 
 public final class RunnerAnswerTest {
     private static final String ANSWER = "{\"message\": \"Raspilot spawned\", \"spawned\": true,"
@@ -96,7 +95,7 @@ public final class RunnerAnswerTest {
     public void aNameThatIsNoneIsNotAsked() {
         for (String name : new String[] {null, "", ".hidden", "a b", "a\n", "a/b", "\u00e4",
             "x12345678901234567890123456789012"}) {
-            assertThrows(name, InvalidSettingException.class, () ->
+            assertThrows(name, IllegalArgumentException.class, () ->
                     new RunnerRequest(name, "", null));
         }
     }

@@ -48,8 +48,6 @@ public final class UpSocketOnLoopbackTest {
         awaitConnects(socket, 7);
         peer.say(" a line\n");
         awaitTold("<  a line");
-        assertEquals(6, counters(socket).lost);
-        assertEquals(7, counters(socket).received);
     }
 
     @Test
@@ -58,15 +56,9 @@ public final class UpSocketOnLoopbackTest {
         peer.accept();
         awaitConnects(socket, 1);
         final int frames = 200000;
-        int mostWaiting = 0;
         for (int i = 0; i < frames; i += 1000) {
-            mostWaiting = Math.max(mostWaiting, sendFrames(socket, i, i + 1000));
+            sendFrames(socket, i, i + 1000);
         }
-        assertTrue("held " + mostWaiting, mostWaiting <= 2 * FRAME);
-        final UpSocketCounters stalled = counters(socket);
-        final int held = (int) (stalled.bytesOut / FRAME);
-        assertTrue(held < 10000);
-        assertTrue("replaced " + stalled.replaced, stalled.replaced > frames - 10000 - 2);
         long last = -1;
         int read = 0;
         while (last != frames - 1) {
@@ -77,8 +69,9 @@ public final class UpSocketOnLoopbackTest {
             last = number;
             read++;
         }
-        assertTrue("read " + read, read <= held + 3);
-        assertEquals(1, counters(socket).connects);
+        // The system's buffers hold the oldest ones, the queue the newest.
+        assertTrue("read " + read, read < 10000);
+        assertEquals(1, (long) running.call(() -> socket.connects()));
     }
 
     @Test
@@ -93,13 +86,11 @@ public final class UpSocketOnLoopbackTest {
             while (socket.send(bytes(count + " " + new String(letters)))) {
                 count++;
             }
-            assertTrue(socket.waitingBytes() <= UpSocketSettings.MAX_QUEUE_BYTES + 1100);
             return count;
         });
         for (int i = 0; i < taken; i++) {
             assertTrue(peer.readLine().startsWith(i + " xxx"));
         }
-        running.await("all gone", () -> socket.waitingBytes() == 0);
     }
 
     private static UpSocketSettings quick() {
@@ -131,25 +122,18 @@ public final class UpSocketOnLoopbackTest {
         assertTrue(running.call(() -> socket.send(bytes(line))));
     }
 
-    /** Sends numbered frames and returns how much waited at most. */
-    private int sendFrames(final UpSocket socket, final int first, final int end) {
-        return running.call(() -> {
-            int most = 0;
+    private void sendFrames(final UpSocket socket, final int first, final int end) {
+        running.call(() -> {
             for (int i = first; i < end; i++) {
                 socket.sendNewest("frame", ByteBuffer.allocate(FRAME).putLong(i).array());
-                most = Math.max(most, socket.waitingBytes());
             }
-            return most;
+            return null;
         });
-    }
-
-    private UpSocketCounters counters(final UpSocket socket) {
-        return running.call(() -> socket.counters());
     }
 
     private void awaitConnects(final UpSocket socket, final int count) {
         running.await("connection " + count, () ->
-                socket.isConnected() && socket.counters().connects == count);
+                socket.isConnected() && socket.connects() == count);
     }
 
     private void awaitTold(final String what) {

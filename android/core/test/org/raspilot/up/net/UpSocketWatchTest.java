@@ -1,7 +1,6 @@
 package org.raspilot.up.net;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
 import java.util.Arrays;
@@ -40,8 +39,6 @@ public final class UpSocketWatchTest {
         assertEquals("\n", network.newest().written());
         loop.advance(3000);
         assertEquals("\n\n\n", network.newest().written());
-        assertEquals(1, socket.counters().sent);
-        assertEquals(7, socket.counters().bytesOut);
     }
 
     @Test
@@ -108,14 +105,6 @@ public final class UpSocketWatchTest {
         assertEquals(0, loop.pendingTimers());
         loop.advance(60000);
         assertEquals(Arrays.asList("connected", "lost: stopped"), diary.told);
-    }
-
-    @Test
-    public void settingsThatCannotWorkAreRefused() {
-        assertThrows(IllegalArgumentException.class, () ->
-                UpSocketSettings.raw().withHeartbeatMs(1000));
-        assertThrows(IllegalArgumentException.class, () ->
-                new UpSocketSettings(false, 2000, 0, 3000, 500, 400, null));
     }
 
     private void connect(UpSocketSettings settings) {

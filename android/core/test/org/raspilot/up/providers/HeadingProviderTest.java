@@ -33,12 +33,4 @@ public final class HeadingProviderTest {
         compass.give(new Rotation(1, 0, 0, 0, 0));
         assertEquals("up.heading.change {heading=0.0, mode=actual}", bench.sink.last());
     }
-
-    @Test
-    public void itIsNever360() {
-        bench.run(provider);
-        provider.setMounting(Mounting.FLAT);
-        compass.give(Mounting.FLAT.rotation(new Attitude(0, 0, 359.98), 0));
-        assertEquals("up.heading.change {heading=0.0, mode=actual}", bench.sink.last());
-    }
 }

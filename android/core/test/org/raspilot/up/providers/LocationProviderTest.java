@@ -24,26 +24,22 @@ public final class LocationProviderTest {
     }
 
     @Test
-    public void impossibleAgeAndSatellitesAreLeftOut() {
+    public void whatIsImpossibleOrNotKnownIsLeftOut() {
         bench.run(provider);
         gps.give(new Fix(3, 4, null, null, null, null, -5.0, -1));
         assertEquals("up.location.update {latitude=3.0, longitude=4.0}", bench.sink.last());
         bench.loop.advance(1000);
         gps.give(new Fix(5, 4, null, null, null, null, 60001.0, 256));
         assertEquals("up.location.update {latitude=5.0, longitude=4.0}", bench.sink.last());
-    }
-
-    @Test
-    public void whatGpsDoesNotKnowIsLeftOut() {
-        bench.run(provider);
-        gps.give(new Fix(1, 2, null, Double.NaN, Double.POSITIVE_INFINITY, null));
+        bench.loop.advance(1000);
+        gps.give(new Fix(1, 2, null, Double.NaN, Double.POSITIVE_INFINITY, null, null, null));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0}", bench.sink.last());
     }
 
     @Test
     public void theBearingIsWithin0To360() {
         bench.run(provider);
-        gps.give(new Fix(1, 2, null, null, null, 359.97));
+        gps.give(new Fix(1, 2, null, null, null, 359.97, null, null));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0, bearing=0.0}",
                 bench.sink.last());
     }
@@ -51,12 +47,12 @@ public final class LocationProviderTest {
     @Test
     public void aPlaceThatIsNoneIsToldAndNotSent() {
         bench.run(provider);
-        gps.give(new Fix(90.5, 2, null, null, null, null));
-        gps.give(new Fix(Double.NaN, 2, null, null, null, null));
+        gps.give(new Fix(90.5, 2, null, null, null, null, null, null));
+        gps.give(new Fix(Double.NaN, 2, null, null, null, null, null, null));
         assertEquals(0, bench.sink.commands.size());
         assertEquals(2, bench.told.size());
         assertTrue(bench.told.get(0), bench.told.get(0).contains("latitude"));
-        gps.give(new Fix(1, 2, null, null, null, null));
+        gps.give(new Fix(1, 2, null, null, null, null, null, null));
         assertEquals("", bench.status().problem);
         assertEquals(1, bench.sink.commands.size());
     }
@@ -64,16 +60,16 @@ public final class LocationProviderTest {
     @Test
     public void aFixThatMayBeFarOffIsToldAndNotSent() {
         bench.run(provider);
-        gps.give(new Fix(1, 2, null, 1200.0, null, null));
-        gps.give(new Fix(1, 2, null, 50.1, null, null));
-        gps.give(new Fix(1, 2, null, Double.POSITIVE_INFINITY, null, null));
+        gps.give(new Fix(1, 2, null, 1200.0, null, null, null, null));
+        gps.give(new Fix(1, 2, null, 50.1, null, null, null, null));
+        gps.give(new Fix(1, 2, null, Double.POSITIVE_INFINITY, null, null, null, null));
         assertEquals(0, bench.sink.commands.size());
         assertEquals("told once", "[location: its reading cannot be used: "
                 + "a fix that may be off by more than 50 m is not usable in flight]",
                 bench.told.toString());
         bench.loop.advance(10001);
         assertEquals(ProviderState.SILENT, provider.state());
-        gps.give(new Fix(1, 2, null, 50.0, null, null));
+        gps.give(new Fix(1, 2, null, 50.0, null, null, null, null));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0, accuracy=50.0}",
                 bench.sink.last());
         assertEquals("", bench.status().problem);
@@ -98,7 +94,7 @@ public final class LocationProviderTest {
     public void aQuickerGpsIsThinnedToThePeriodAndTheNewestFixLeaves() {
         bench.run(provider);
         for (int at = 0; at <= 20; at++) {
-            gps.give(new Fix(at, 0, null, null, null, null));
+            gps.give(new Fix(at, 0, null, null, null, null, null, null));
             bench.loop.advance(100);
         }
         assertEquals("[0, 400, 900, 1400, 1900]", bench.sink.timesMs.toString());
@@ -108,9 +104,9 @@ public final class LocationProviderTest {
     @Test
     public void aFixThatCameTooEarlyLeavesLateWhenNoNewerOneComes() {
         bench.run(provider);
-        gps.give(new Fix(1, 0, null, null, null, null));
+        gps.give(new Fix(1, 0, null, null, null, null, null, null));
         bench.loop.advance(200);
-        gps.give(new Fix(2, 0, null, null, null, null));
+        gps.give(new Fix(2, 0, null, null, null, null, null, null));
         bench.loop.advance(5000);
         assertEquals("[0, 625]", bench.sink.timesMs.toString());
         assertEquals(2.0, bench.sink.commands.get(1).data().get("latitude"));
@@ -120,7 +116,7 @@ public final class LocationProviderTest {
     public void aGpsThatJittersAboutThePeriodLosesNoFix() {
         bench.run(provider);
         for (int at = 0; at < 40; at++) {
-            gps.give(new Fix(at, 0, null, null, null, null));
+            gps.give(new Fix(at, 0, null, null, null, null, null, null));
             bench.loop.advance(at % 2 == 0 ? 420 : 580);
         }
         assertEquals(40, bench.sink.commands.size());
@@ -129,7 +125,7 @@ public final class LocationProviderTest {
     @Test
     public void aFixIsSentOnceHoweverLongTheNextOneTakes() {
         bench.run(provider);
-        gps.give(new Fix(1, 2, null, null, null, null));
+        gps.give(new Fix(1, 2, null, null, null, null, null, null));
         bench.loop.advance(60000);
         assertEquals(1, bench.sink.commands.size());
     }
@@ -137,12 +133,11 @@ public final class LocationProviderTest {
     @Test
     public void theScreenIsToldTheRateAndTheAge() {
         bench.run(provider);
-        bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
+        bench.feed(gps, new Fix(1, 2, null, null, null, null, null, null), 500, 5000);
         ProviderStatus status = bench.status();
         assertEquals(ProviderState.SENDING, status.state);
         assertEquals(2, status.rateHz, 0);
         assertEquals(0, status.ageMs);
-        assertEquals(10, status.sent);
         assertEquals("GPS", status.sensor);
         assertEquals("latitude 1.0, longitude 2.0", status.lastText);
         bench.loop.advance(700);
@@ -159,7 +154,7 @@ public final class LocationProviderTest {
         assertEquals(ProviderState.WAITING, provider.state());
         bench.loop.advance(1);
         assertEquals(ProviderState.SILENT, provider.state());
-        gps.give(new Fix(1, 2, null, null, null, null));
+        gps.give(new Fix(1, 2, null, null, null, null, null, null));
         assertEquals(ProviderState.SENDING, provider.state());
         bench.loop.advance(10001);
         assertEquals(ProviderState.SILENT, provider.state());
@@ -169,21 +164,21 @@ public final class LocationProviderTest {
     public void withoutALinkItWaitsAndKeepsNothingOld() {
         bench.run(provider);
         bench.sink.isOpen = false;
-        bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
+        bench.feed(gps, new Fix(1, 2, null, null, null, null, null, null), 500, 5000);
         assertEquals(ProviderState.WAITING, provider.state());
         bench.loop.advance(3000);
         bench.sink.isOpen = true;
         bench.controller.linkOpened();
         bench.loop.advance(3000);
         assertEquals(0, bench.sink.commands.size());
-        gps.give(new Fix(3, 4, null, null, null, null));
+        gps.give(new Fix(3, 4, null, null, null, null, null, null));
         assertEquals(1, bench.sink.commands.size());
     }
 
     @Test
     public void onANewLinkAFreshFixLeavesAtOnce() {
         bench.run(provider);
-        gps.give(new Fix(1, 2, null, null, null, null));
+        gps.give(new Fix(1, 2, null, null, null, null, null, null));
         bench.loop.advance(300);
         bench.controller.linkOpened();
         assertEquals("[0, 300]", bench.sink.timesMs.toString());

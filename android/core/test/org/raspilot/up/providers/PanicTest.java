@@ -10,7 +10,7 @@ import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 
 /** Panic Mode: its input, and that every stream obeys it. */
 public final class PanicTest {
-    private static final Fix HERE = new Fix(48.1, 17.1, null, null, null, null);
+    private static final Fix HERE = new Fix(48.1, 17.1, null, null, null, null, null, null);
     private static final Rotation LEVEL = new Rotation(1, 0, 0, 0, 0);
 
     private final ProvidersBench bench = new ProvidersBench();

@@ -14,7 +14,7 @@ final class ProvidersBench {
     final List<String> told = new ArrayList<>();
 
     ProvidersBench() {
-        controller.addListener((name, sentence) -> told.add(name + ": " + sentence));
+        controller.setListener((name, sentence) -> told.add(name + ": " + sentence));
     }
 
     void run(UpProvider provider) {

@@ -49,14 +49,6 @@ public final class SharedSourceTest {
         assertEquals("[slow a]", heard.toString());
     }
 
-    @Test
-    public void itIsThereWhenTheSensorIs() {
-        assertEquals(true, slow.isPresent());
-        assertEquals("sensor", slow.name());
-        sensor.isPresent = false;
-        assertEquals(false, slow.isPresent());
-    }
-
     private SensorListener<String> listener(final String name) {
         return reading -> heard.add(name + " " + reading);
     }

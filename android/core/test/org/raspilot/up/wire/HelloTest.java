@@ -47,7 +47,6 @@ public final class HelloTest {
         assertTrue(taken.isAccepted());
         assertEquals(ProxyRole.COMMAND, taken.role);
         assertEquals(TOKEN, taken.token);
-        assertEquals("glider-1", taken.aircraft);
         assertEquals(ProxyRole.AIR, answer("UP1 ok aircraft=a seat=air token=" + TOKEN).role);
         HelloAnswer refused = answer("UP1 error code=taken reason=\"in use\"");
         assertFalse(refused.isAccepted());

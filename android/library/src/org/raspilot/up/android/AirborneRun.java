@@ -117,11 +117,11 @@ final class AirborneRun {
         loop.post(() -> airborne.setMounting(mounting));
     }
 
-    /** Sets the altitude at the phone's position to zero. */
     void zeroAltitudeHere() {
         loop.post(() -> {
             try {
-                reportPressure(airborne.zeroAltitudeHere());
+                final double hPa = airborne.zeroAltitudeHere();
+                runOnMain(() -> service.onReferencePressure(hPa));
             } catch (IllegalStateException refusal) {
                 reportEvent(refusal.getMessage());
             }
@@ -159,20 +159,12 @@ final class AirborneRun {
         return way.check(loop.nowMs(), status.isConnected ? status.endpoint.host : null);
     }
 
-    private void reportStatus() {
-        reportStatus(airborne.status());
-    }
-
     private void reportStatus(final AirborneStatus status) {
         runOnMain(() -> service.report(status));
     }
 
     private void reportEvent(final String sentence) {
         runOnMain(() -> service.onEvent(sentence));
-    }
-
-    private void reportPressure(final double hPa) {
-        runOnMain(() -> service.onReferencePressure(hPa));
     }
 
     /** Runs a call on the main thread, unless the run has ended by then. */
@@ -188,19 +180,19 @@ final class AirborneRun {
     private final class Listener implements AirborneListener {
         @Override
         public void onConnected(Endpoint place) {
-            reportStatus();
+            reportStatus(airborne.status());
             reportEvent(airborne.status().linkText);
         }
 
         @Override
         public void onDisconnected(String code, String reason) {
-            reportStatus();
+            reportStatus(airborne.status());
             reportEvent(reason);
         }
 
         @Override
         public void onPanic(long delayMs) {
-            reportStatus();
+            reportStatus(airborne.status());
         }
 
         @Override

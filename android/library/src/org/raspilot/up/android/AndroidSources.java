@@ -9,7 +9,6 @@ import java.util.concurrent.Executor;
 import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.providers.AltitudeProvider.Pressure;
-import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
 import org.raspilot.up.providers.SensorSource;
@@ -24,19 +23,16 @@ public final class AndroidSources {
     }
 
     /**
-     * Finds the available sensors.
-     *
-     * @param context of the application or of anything in it
-     * @param looper whose thread the system calls on
-     * @param fixes receives each fix in addition to its provider
+     * Finds the available sensors; the system calls on the looper's thread, {@code declination}
+     * receives each fix, too.
      */
-    public static Sensors find(Context context, Looper looper, Loop loop, SensorTexts texts,
-            ProblemListener problems, FixListener fixes) {
+    static Sensors find(Context context, Looper looper, Loop loop, SensorTexts texts,
+            ProblemListener problems, Declination declination) {
         Context lasting = context.getApplicationContext();
         Executor posting = call -> loop.post(call);
         SensorAccess access = new SensorAccess(lasting, looper);
         return new Sensors(
-                new LocationSource(lasting, looper, posting, texts, problems, fixes),
+                new LocationSource(lasting, looper, posting, texts, problems, declination),
                 rotation(access, posting, texts, problems),
                 new HardwareSource<>(access, posting, texts, SensorProblem.GYROSCOPE, problems,
                         (event, timeMs) -> new RotationRate(event.values[0], event.values[1],
@@ -45,6 +41,14 @@ public final class AndroidSources {
                 new HardwareSource<>(access, posting, texts, SensorProblem.BAROMETER, problems,
                         (event, timeMs) -> new Pressure(event.values[0]), Sensor.TYPE_PRESSURE),
                 new BatterySource(lasting, new Handler(looper), posting, texts));
+    }
+
+    /** Returns the phone's orientation for a screen, whether or not it is sent; on the main thread. */
+    public static SensorSource<Rotation> rotation(Context context, SensorTexts texts,
+            ProblemListener problems) {
+        final Handler main = new Handler(Looper.getMainLooper());
+        return rotation(new SensorAccess(context.getApplicationContext(), Looper.getMainLooper()),
+                call -> main.post(call), texts, problems);
     }
 
     /** Returns the best source of a phone; its own fusion includes north and its gyroscope. */
@@ -58,11 +62,5 @@ public final class AndroidSources {
         return vector.isPresent() ? vector : new HardwareSource<>(access, loop, texts,
                 SensorProblem.ROTATION, problems, new FieldReader(), Sensor.TYPE_ACCELEROMETER,
                 Sensor.TYPE_MAGNETIC_FIELD);
-    }
-
-    /** Receives the fixes in addition to the provider that sends them. Called on any thread. */
-    public interface FixListener {
-        /** Takes a fix, possibly an old one from before the start. */
-        void onFix(Fix fix);
     }
 }

@@ -64,10 +64,8 @@ public abstract class BaseUpService extends Service {
      */
     protected abstract boolean isOnWifi();
 
-    /** Returns the texts for missing parts of the phone. */
     protected abstract SensorTexts sourceTexts();
 
-    /** Returns the texts and icons of the notification. */
     protected abstract NotificationTexts noticeTexts();
 
     /** Returns the notification's line for a status; null: nothing is known yet. */

@@ -13,7 +13,7 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /** The battery level that the system reports: once at first, then on each change. */
-final class BatterySource extends BroadcastReceiver implements SensorSource<BatteryLevel> {
+public final class BatterySource extends BroadcastReceiver implements SensorSource<BatteryLevel> {
     private final Context context;
     private final Handler handler;
     private final String absence;
@@ -30,7 +30,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
 
     @Override
     public boolean isPresent() {
-        return level(context.registerReceiver(null, filter())) != null;
+        return level(context) != null;
     }
 
     @Override
@@ -68,6 +68,11 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
         if (level != null) {
             handover.put(level);
         }
+    }
+
+    /** Returns the present level, or null if absent. */
+    public static BatteryLevel level(Context context) {
+        return level(context.registerReceiver(null, filter()));
     }
 
     private static IntentFilter filter() {

@@ -1,11 +1,10 @@
 package org.raspilot.up.android;
 
 import android.hardware.GeomagneticField;
-import org.raspilot.up.android.AndroidSources.FixListener;
 import org.raspilot.up.providers.Fix;
 
 /** Reports the magnetic declination along the flight, by Android's model. */
-final class Declination implements FixListener {
+final class Declination {
     interface Listener {
         /** Takes degrees from magnetic to true north, east positive; on any thread. */
         void onDeclination(double deg);
@@ -21,8 +20,8 @@ final class Declination implements FixListener {
         this.listener = listener;
     }
 
-    @Override
-    public synchronized void onFix(Fix fix) {
+    /** Takes a fix, possibly an old one from before the start; on any thread. */
+    synchronized void onFix(Fix fix) {
         if (told != null && isNear(fix, told)) {
             return;
         }

@@ -21,10 +21,7 @@ final class FixFilter {
     }
 
     /**
-     * Returns whether a fix is current.
-     *
-     * @param ageMs by the phone's clock; 0 where the system does not report it
-     * @param timeMs the fix's own time, UTC
+     * Returns whether a fix is current: its age, 0 where unknown, and its own time, UTC, both ms.
      */
     boolean takes(long ageMs, long timeMs) {
         return ageMs <= MAX_AGE_MS && timeMs != knownBeforeMs;

@@ -24,7 +24,6 @@ final class ForegroundNotification {
         this.texts = texts;
     }
 
-    /** Brings the service into the foreground. */
     void begin(String text, boolean usesLocation) {
         shown = text;
         if (Build.VERSION.SDK_INT >= 29 && usesLocation) {

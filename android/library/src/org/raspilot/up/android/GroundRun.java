@@ -1,6 +1,5 @@
 package org.raspilot.up.android;
 
-import android.content.Context;
 import android.os.Handler;
 import android.os.Looper;
 import android.util.Log;
@@ -17,7 +16,6 @@ import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus.LinkState;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
-import org.raspilot.up.ground.TelemetrySource;
 import org.raspilot.up.loop.SelectorLoop;
 
 /**
@@ -26,11 +24,6 @@ import org.raspilot.up.loop.SelectorLoop;
  * delivered.
  */
 final class GroundRun implements GroundListener, HandlerFaultListener {
-    interface Setup {
-        /** Takes the registry for handlers; on the loop, before the start. */
-        void onUp(Up up, TelemetrySource telemetry);
-    }
-
     /** Something to do with the ground side on its loop. */
     interface Call {
         void with(GroundSide side);
@@ -49,20 +42,20 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     private volatile boolean isEnded;
 
     /** Starts to connect; the view receives the changes. */
-    GroundRun(Context context, GroundSettings settings, boolean isOnWifi, GroundView view,
-            final Setup setup) throws IOException {
+    GroundRun(TelemetryService service, GroundView view) throws IOException {
         this.view = view;
+        final GroundSettings settings = service.readSettings();
+        way = new WifiBinding(new ProcessWifi(service), service.isOnWifi(), settings.host);
         loop = new SelectorLoop("up ground", fault ->
                 Log.e(TAG, "up ground failed in a call", fault), new SleepClock());
         loop.start();
         up = new Up(loop, this);
-        side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
+        side = new GroundSide(loop, settings, new PreferencesTokenStore(service),
                 up.commandExecutor(), this, new Random());
-        way = new WifiBinding(new ProcessWifi(context), isOnWifi, settings.host);
         host = settings.host;
-        network = new NetworkWatch(context, () -> onNetworkChanged());
+        network = new NetworkWatch(service, () -> onNetworkChanged());
         loop.post(() -> {
-            setUp(setup);
+            setUp(service);
             side.start();
             onStatus(side.status());
             onChanged();
@@ -71,9 +64,9 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     }
 
     /** Runs the application's own setup; a failure there does not stop the rest. */
-    private void setUp(Setup setup) {
+    private void setUp(TelemetryService service) {
         try {
-            setup.onUp(up, side);
+            service.onUp(up, side);
         } catch (RuntimeException fault) {
             Log.e(TAG, "the application's own set-up failed", fault);
         }

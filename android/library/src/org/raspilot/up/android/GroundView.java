@@ -22,7 +22,6 @@ final class GroundView implements Runnable {
     private final Object lock = new Object();
     private boolean isPosted;
     private boolean isTelemetryNew;
-    private boolean isStatusNew;
     private boolean isChanged;
     private GroundSnapshot snapshot = GroundSnapshot.EMPTY;
 
@@ -49,30 +48,24 @@ final class GroundView implements Runnable {
 
     void update(GroundStatus newest) {
         synchronized (lock) {
-            snapshot = new GroundSnapshot(snapshot.telemetry, newest, snapshot.track,
-                    snapshot.events, snapshot.alarms, snapshot.gains, 0);
-            isStatusNew = true;
-            wake();
+            change(new GroundSnapshot(snapshot.telemetry, newest, snapshot.track,
+                    snapshot.events, snapshot.alarms, snapshot.gains, 0));
         }
     }
 
     void update(Track.Snapshot track, EventLog.Snapshot events, Alarms.Snapshot alarms,
             GainsService.Snapshot gains) {
         synchronized (lock) {
-            snapshot = new GroundSnapshot(snapshot.telemetry, snapshot.status, track, events,
-                    alarms, gains, 0);
-            isChanged = true;
-            wake();
+            change(new GroundSnapshot(snapshot.telemetry, snapshot.status, track, events,
+                    alarms, gains, 0));
         }
     }
 
     /** Clears everything, as before another link; the watchers are notified. */
     void clear() {
         synchronized (lock) {
-            snapshot = GroundSnapshot.EMPTY;
             isTelemetryNew = true;
-            isChanged = true;
-            wake();
+            change(GroundSnapshot.EMPTY);
         }
     }
 
@@ -84,35 +77,29 @@ final class GroundView implements Runnable {
 
     @Override
     public void run() {
-        final Telemetry newTelemetry;
-        final GroundStatus newStatus;
-        final boolean isOtherNew;
+        final boolean hasTelemetry;
+        final boolean hasChange;
         synchronized (lock) {
-            newTelemetry = isTelemetryNew ? snapshot.telemetry : null;
-            newStatus = isStatusNew ? snapshot.status : null;
-            isOtherNew = isChanged;
+            hasTelemetry = isTelemetryNew;
+            hasChange = isChanged;
             isTelemetryNew = false;
-            isStatusNew = false;
             isChanged = false;
             isPosted = false;
         }
         for (GroundWatcher watcher : new ArrayList<>(watchers)) {
-            notifyWatcher(watcher, newStatus, newTelemetry, isOtherNew);
+            if (hasTelemetry) {
+                watcher.onTelemetry();
+            }
+            if (hasChange) {
+                watcher.onChanged();
+            }
         }
     }
 
-    private static void notifyWatcher(GroundWatcher watcher, GroundStatus status,
-            Telemetry telemetry,
-            boolean isOtherNew) {
-        if (status != null) {
-            watcher.onStatus(status);
-        }
-        if (telemetry != null) {
-            watcher.onTelemetry(telemetry);
-        }
-        if (isOtherNew) {
-            watcher.onChanged();
-        }
+    private void change(GroundSnapshot now) {
+        snapshot = now;
+        isChanged = true;
+        wake();
     }
 
     private void wake() {

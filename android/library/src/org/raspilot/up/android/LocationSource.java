@@ -9,7 +9,6 @@ import android.os.Build;
 import android.os.Bundle;
 import android.os.Looper;
 import java.util.concurrent.Executor;
-import org.raspilot.up.android.AndroidSources.FixListener;
 import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.android.api23.Api23;
 import org.raspilot.up.providers.Fix;
@@ -35,18 +34,18 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     private final Looper looper;
     private final SensorTexts texts;
     private final ProblemListener problems;
-    private final FixListener besides;
+    private final Declination declination;
     private final LatestReading<Fix> handover;
     private final FixFilter filter = new FixFilter();
     private final BadReadings bad;
 
     LocationSource(Context context, Looper looper, Executor loop, SensorTexts texts,
-            ProblemListener problems, FixListener besides) {
+            ProblemListener problems, Declination declination) {
         this.context = context;
         this.looper = looper;
         this.texts = texts;
         this.problems = problems;
-        this.besides = besides;
+        this.declination = declination;
         manager = (LocationManager) context.getSystemService(Context.LOCATION_SERVICE);
         handover = new LatestReading<>(loop);
         bad = new BadReadings(problems, texts.of(SensorProblem.REFUSED));
@@ -86,7 +85,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
             if (filter.takes(ageMs(location), location.getTime())) {
                 handover.put(fix);
             }
-            besides.onFix(fix);
+            declination.onFix(fix);
         } catch (RuntimeException wrong) {
             // Catches every exception: on the system's thread it would end the flight.
             bad.add(GPS, wrong);
@@ -148,7 +147,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         try {
             Location known = has(ROUGH) ? manager.getLastKnownLocation(ROUGH) : null;
             if (known != null) {
-                besides.onFix(fix(known));
+                declination.onFix(fix(known));
             }
         } catch (RuntimeException refusal) {
             // Not permitted, or no fix at all: the GPS will report it.
@@ -167,7 +166,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
                 filter.begin();
             } else {
                 filter.begin(known.getTime());
-                besides.onFix(fix(known));
+                declination.onFix(fix(known));
             }
             manager.requestLocationUpdates(GPS, periodMs, 0, this, looper);
             if (!manager.isProviderEnabled(GPS)) {

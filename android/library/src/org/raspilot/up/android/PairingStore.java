@@ -24,7 +24,6 @@ public final class PairingStore {
     private static final String FILE = "up_keys";
     /** The names alone: the system shows a file that it cannot read as an empty one. */
     private static final String NAMES = "up_key_names";
-    /** No aircraft has this name. */
     private static final String CERTIFICATES = "tls:";
     private static final String ENCRYPTED = "keystore ";
     private static final Charset ASCII = Charset.forName("US-ASCII");
@@ -127,7 +126,6 @@ public final class PairingStore {
         names.edit().putBoolean(name, true).commit();
     }
 
-    /** Removes the key of an aircraft. */
     public void forget(String aircraft) {
         kept.edit().remove(aircraft).commit();
         names.edit().remove(aircraft).commit();

@@ -12,7 +12,6 @@ public final class Permissions {
     private Permissions() {
     }
 
-    /** Returns whether this process has a permission. */
     public static boolean has(Context context, String permission) {
         return context.checkPermission(permission, Process.myPid(), Process.myUid())
                 == PackageManager.PERMISSION_GRANTED;

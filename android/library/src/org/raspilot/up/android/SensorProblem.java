@@ -10,15 +10,12 @@ public enum SensorProblem {
     LOCATION_OFF,
     /** No sensor for the phone's orientation. */
     ROTATION,
-    /** No gyroscope. */
     GYROSCOPE,
-    /** No barometer. */
     BAROMETER,
     /** The system does not report the battery's level. */
     BATTERY,
     /** The system refused to read a sensor that is there. */
     REFUSED,
-    /** There is nothing that speaks. */
     SPEECH;
 
     /** The application's texts for missing parts of a phone. Called on any thread. */

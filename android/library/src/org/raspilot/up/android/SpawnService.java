@@ -66,7 +66,6 @@ public final class SpawnService extends IntentService {
                 .putExtra(ANSWER, answer));
     }
 
-    /** Returns the result in a message to the messenger. */
     public static SpawnResult result(Message message) {
         return (SpawnResult) message.obj;
     }

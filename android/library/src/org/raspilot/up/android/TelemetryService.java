@@ -14,8 +14,6 @@ import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
-import org.raspilot.up.ground.GroundStatus;
-import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetrySource;
 
 /**
@@ -43,11 +41,7 @@ public abstract class TelemetryService extends Service {
         return false;
     }
 
-    /**
-     * Registers the application's own handlers; on the loop.
-     *
-     * @param telemetry for a BaseTelemetryHandler
-     */
+    /** Registers the application's own handlers, as a BaseTelemetryHandler; on the loop. */
     protected void onUp(Up up, TelemetrySource telemetry) {
     }
 
@@ -71,8 +65,7 @@ public abstract class TelemetryService extends Service {
     private void begin() {
         fault = "";
         try {
-            run = new GroundRun(this, readSettings(), isOnWifi(), view, (up, telemetry) ->
-                    TelemetryService.this.onUp(up, telemetry));
+            run = new GroundRun(this, view);
         } catch (IllegalArgumentException | IOException failure) {
             fault = failure.getMessage();
         }
@@ -87,7 +80,6 @@ public abstract class TelemetryService extends Service {
 
     /** What a screen reaches of the service that it is bound to. On the main thread. */
     public final class Ground extends Binder {
-        /** Adds a watcher, which receives all further changes. */
         public void add(GroundWatcher watcher) {
             view.add(watcher);
         }
@@ -141,11 +133,6 @@ public abstract class TelemetryService extends Service {
             post(side -> side.requestControl());
         }
 
-        /** Called when the user keeps the seat that another ground requested. */
-        public void dismissControlRequest() {
-            post(side -> side.dismissControlRequest());
-        }
-
         /** Hands the seat to the ground of a number. */
         public void giveControl(final int to) {
             post(side -> side.giveControl(to));
@@ -176,15 +163,12 @@ public abstract class TelemetryService extends Service {
         void ask(GroundSide side, AnswerListener answers);
     }
 
-    /** Receives the data of the aircraft. Called on the main thread. */
+    /** Is told of newer data, for {@link Ground#snapshot}. Called on the main thread. */
     public interface GroundWatcher {
-        /** Takes the newest frame; older frames that were not delivered yet are skipped. */
-        void onTelemetry(Telemetry telemetry);
+        /** Called for the newest frame; older ones that were not delivered yet are skipped. */
+        void onTelemetry();
 
-        /** Takes the status, when it has changed. */
-        void onStatus(GroundStatus status);
-
-        /** Called when track, events, alarms or gains have changed. */
+        /** Called when status, track, events, alarms or gains have changed. */
         void onChanged();
     }
 }

@@ -38,12 +38,7 @@ final class WifiBinding {
     private boolean isBegun;
     private long turnMs;
 
-    /**
-     * Starts unbound.
-     *
-     * @param isWanted false: it is never bound
-     * @param host the peer in the settings; empty: found by Discovery
-     */
+    /** Starts unbound; {@code host} empty: the peer is found by Discovery. */
     WifiBinding(Wifi wifi, boolean isWanted, String host) {
         this.wifi = wifi;
         this.isWanted = isWanted;

@@ -6,19 +6,13 @@ import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.ground.CommandGate;
 
 /** What belongs together in the list of Commands. */
-enum CommandGroup {
-    /** Flight and navigation. */
+public enum CommandGroup {
     FLIGHT,
-    /** The flight controller's board. */
     BOARD,
-    /** Messages and log entries. */
     DATA,
-    /** The airborne phone. */
     PHONE,
-    /** Commands of unknown modules. */
     OTHER;
 
-    /** Returns the group of a Command by its name. */
     static CommandGroup of(String name) {
         if (name.startsWith("up.telemetry.") || name.startsWith("black_box.")) {
             return DATA;
@@ -51,7 +45,7 @@ enum CommandGroup {
     }
 
     /** Returns whether each of the words occurs in one of the texts, ignoring case. */
-    static boolean matches(String words, String... texts) {
+    public static boolean matches(String words, String... texts) {
         for (String word : words.trim().toLowerCase(Locale.ROOT).split("\\s+")) {
             boolean isFound = false;
             for (String text : texts) {

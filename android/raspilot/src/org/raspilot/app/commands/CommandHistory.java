@@ -4,70 +4,35 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.LinkedList;
 import java.util.List;
+import org.raspilot.up.ground.Answer;
 
-/** The sent Commands with their outcomes, newest first. Main thread only. */
+/** The sent Commands with their answers, newest first. Main thread only. */
 final class CommandHistory {
     static final int MAX_ENTRIES = 50;
 
-    enum Outcome {
-        /** The answer is waited for. */
-        WAITING,
-        /** It was carried out. */
-        GOOD,
-        /** The aircraft refused it. */
-        REFUSED,
-        /** It was not sent. */
-        UNSENT,
-        /** It may or may not have been executed. */
-        UNKNOWN
-    }
-
-    /** One Command that was sent. Immutable. */
     static final class Entry {
-        /** Counts up from 1. */
-        final int number;
         final String words;
         /** When, by a monotonic clock, ms. */
         final long atMs;
-        final Outcome outcome;
-        /** The reason, without a full stop, or an empty text. */
-        final String reason;
-        /** Time until the answer, ms; null if there was none or it is unknown. */
-        final Long roundTripMs;
+        /** Null while it is waited for. */
+        Answer answer;
 
-        private Entry(int number, String words, long atMs, Outcome outcome, String reason,
-                Long roundTripMs) {
-            this.number = number;
+        private Entry(String words, long atMs) {
             this.words = words;
             this.atMs = atMs;
-            this.outcome = outcome;
-            this.reason = reason;
-            this.roundTripMs = roundTripMs;
         }
     }
 
     private final LinkedList<Entry> entries = new LinkedList<>();
-    private int numbers;
 
-    /** Adds a sent Command; returns the number to report its outcome with. */
-    int sent(String words, long nowMs) {
-        numbers++;
-        entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, "", null));
+    /** Adds a sent Command; its answer is set later. */
+    Entry sent(String words, long nowMs) {
+        Entry entry = new Entry(words, nowMs);
+        entries.addFirst(entry);
         if (entries.size() > MAX_ENTRIES) {
             entries.removeLast();
         }
-        return numbers;
-    }
-
-    /** Sets the outcome of an entry; ignored if the entry was dropped. */
-    void answered(int number, Outcome outcome, String reason, Long roundTripMs) {
-        for (int place = 0; place < entries.size(); place++) {
-            Entry entry = entries.get(place);
-            if (entry.number == number) {
-                entries.set(place, new Entry(number, entry.words, entry.atMs, outcome, reason,
-                        roundTripMs));
-            }
-        }
+        return entry;
     }
 
     /** Returns all, the newest first; a copy. */

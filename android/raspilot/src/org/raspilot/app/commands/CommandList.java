@@ -28,7 +28,6 @@ final class CommandList extends BaseAdapter {
     private final List<Object> lines = new ArrayList<>();
     private BitSet offered = new BitSet();
 
-    /** Creates a list of all forms. */
     CommandList(CommandsScreen desk, List<CommandForm> forms) {
         this.desk = desk;
         this.forms = forms;

@@ -19,7 +19,6 @@ public final class CommandTexts {
         return org.raspilot.up.ground.CommandTexts.title(name);
     }
 
-    /** Returns the heading of a group. */
     static int group(CommandGroup group) {
         switch (group) {
             case FLIGHT:

@@ -17,7 +17,7 @@ import org.raspilot.up.commands.CommandForm;
  *
  * <p>{@link CommandsState} preserves typed and sent data across a rotation. Main thread only.
  */
-public final class CommandsFragment extends WatchingFragment implements CommandsState.Listener {
+public final class CommandsFragment extends WatchingFragment {
     private CommandsState memory;
     private List<CommandForm> forms = Collections.emptyList();
     private String fault = "";
@@ -44,7 +44,7 @@ public final class CommandsFragment extends WatchingFragment implements Commands
 
     @Override
     public void onStart() {
-        memory.setListener(this);
+        memory.setListener(() -> showAll());
         super.onStart();
     }
 
@@ -65,11 +65,6 @@ public final class CommandsFragment extends WatchingFragment implements Commands
             screen = null;
         }
         super.onDestroyView();
-    }
-
-    @Override
-    public void onHistory() {
-        showAll();
     }
 
     @Override

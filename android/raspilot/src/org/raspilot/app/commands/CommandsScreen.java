@@ -2,11 +2,8 @@ package org.raspilot.app.commands;
 
 import android.app.Activity;
 import android.content.Context;
-import android.text.Editable;
-import org.raspilot.app.view.TextListener;
 import android.view.View;
 import android.view.ViewGroup;
-import android.widget.AdapterView;
 import android.widget.EditText;
 import android.widget.ListView;
 import android.widget.TextView;
@@ -17,6 +14,7 @@ import org.raspilot.app.ground.ControlPanel;
 import org.raspilot.app.ground.FrameLine;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.app.view.FrameText;
+import org.raspilot.app.view.TextListener;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.commands.BaseCommand;
@@ -25,12 +23,9 @@ import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.ground.CommandGate;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
-import org.raspilot.up.ground.GainsService;
 
 /** The list of Commands and the page of the one that is open, while their views live. */
-final class CommandsScreen
-        implements AdapterView.OnItemClickListener, TextListener,
-                View.OnClickListener {
+final class CommandsScreen {
     private final Activity activity;
     private final CommandsState memory;
     private final List<CommandForm> forms;
@@ -63,16 +58,16 @@ final class CommandsScreen
         pagePlace = (ViewGroup) root.findViewById(R.id.commands_page);
         back = root.findViewById(R.id.commands_back);
         if (back != null) {
-            back.setOnClickListener(this);
+            back.setOnClickListener(pressed -> open(""));
         }
         list = new CommandList(this, forms);
         ListView view = (ListView) root.findViewById(R.id.commands_list);
         view.setAdapter(list);
-        view.setOnItemClickListener(this);
+        view.setOnItemClickListener((parent, row, place, id) -> open(list.form(place).name));
         EditText search = (EditText) root.findViewById(R.id.commands_search);
         search.setText(memory.search());
-        list.search(memory.search());
-        search.addTextChangedListener(this);
+        search(memory.search());
+        search.addTextChangedListener((TextListener) text -> search(text.toString()));
         open(memory.open());
     }
 
@@ -115,37 +110,17 @@ final class CommandsScreen
         pagePlace.removeAllViews();
     }
 
-    @Override
-    public void onItemClick(AdapterView<?> parent, View row, int place, long id) {
-        CommandForm form = list.form(place);
-        if (form != null) {
-            open(form.name);
-        }
+    private void search(String words) {
+        memory.setSearch(words);
+        list.search(words);
     }
 
-    @Override
-    public void onClick(View button) {
-        open("");
-    }
-
-    @Override
-    public void afterTextChanged(Editable text) {
-        memory.setSearch(text.toString());
-        list.search(text.toString());
-    }
-
-    /** Returns the source of views and texts. */
     Context context() {
         return activity;
     }
 
     GroundSnapshot picture() {
         return GroundSnapshot.of(ground);
-    }
-
-    /** Returns the gains that are known now; null: none. */
-    GainsService.Snapshot gains() {
-        return GroundSnapshot.of(ground).gains;
     }
 
     /** Returns what remembers texts, history and gains. */
@@ -172,7 +147,6 @@ final class CommandsScreen
         }
     }
 
-    /** Requests the active gains from the aircraft. */
     void requestGains() {
         String words = activity.getString(R.string.gains_ask_words);
         if (isThere(words)) {

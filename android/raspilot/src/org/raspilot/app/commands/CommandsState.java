@@ -22,16 +22,11 @@ public final class CommandsState extends Fragment {
     private static final String OPEN = "commands.open";
     private static final String SEARCH = "commands.search";
 
-    /** Called when an answer arrives; main thread. */
-    interface Listener {
-        void onHistory();
-    }
-
     private final Map<String, Map<String, String>> drafts =
             new HashMap<>();
     private final CommandHistory history = new CommandHistory();
     private final GainsEditor gains = new GainsEditor();
-    private Listener listener;
+    private Runnable listener;
     private String open = "";
     private String search = "";
 
@@ -87,7 +82,6 @@ public final class CommandsState extends Fragment {
         return history;
     }
 
-    /** Returns the gains that are being written. */
     GainsEditor gains() {
         return gains;
     }
@@ -102,46 +96,37 @@ public final class CommandsState extends Fragment {
         open = name;
     }
 
-    /** Returns the words of the search. */
     String search() {
         return search;
     }
 
-    /** Sets the words of the search. */
     void setSearch(String words) {
         search = words;
     }
 
     /** Sets the screen that is notified of answers; null: none. */
-    void setListener(Listener newListener) {
+    void setListener(Runnable newListener) {
         listener = newListener;
     }
 
-    /**
-     * Adds a sent Command and returns the listener for its answer.
-     *
-     * @param words the request in words
-     */
+    /** Adds a sent Command, in words, and returns the listener for its answer. */
     AnswerListener sent(String words) {
-        final int number = history.sent(words, SystemClock.elapsedRealtime());
+        final CommandHistory.Entry entry = history.sent(words, SystemClock.elapsedRealtime());
         notifyListener();
         return answer -> {
-            String why = answer.reason.isEmpty() ? answer.code : answer.reason;
-            history.answered(number, outcome(answer), why, answer.roundTripMs);
+            entry.answer = answer;
             notifyListener();
         };
     }
 
     /** Notes that something could not be sent. */
     void unsent(String words, String reason) {
-        int number = history.sent(words, SystemClock.elapsedRealtime());
-        history.answered(number, CommandHistory.Outcome.UNSENT, reason, null);
-        notifyListener();
+        sent(words).onAnswer(Answer.refused(words, "no_link", reason));
     }
 
     private void notifyListener() {
         if (listener != null) {
-            listener.onHistory();
+            listener.run();
         }
     }
 
@@ -155,19 +140,6 @@ public final class CommandsState extends Fragment {
             for (String field : fields.keySet()) {
                 draft.put(field, fields.getString(field));
             }
-        }
-    }
-
-    private static CommandHistory.Outcome outcome(Answer answer) {
-        switch (answer.outcome) {
-            case ACK:
-                return CommandHistory.Outcome.GOOD;
-            case NACK:
-                return CommandHistory.Outcome.REFUSED;
-            case REFUSED:
-                return CommandHistory.Outcome.UNSENT;
-            default:
-                return CommandHistory.Outcome.UNKNOWN;
         }
     }
 }

@@ -10,25 +10,19 @@ public final class Confirmation {
     private final Context context;
     private AlertDialog dialog;
 
-    /** Makes it for an activity's context. */
     public Confirmation(Context context) {
         this.context = context;
     }
 
     /**
-     * Shows the dialog.
-     *
-     * @param input an input below the text; null: none
-     * @param then runs only when the user confirms
+     * Shows the dialog with an input below the text, or null; {@code then} runs only if confirmed.
      */
     public void show(String title, String text, String yes, View input, final Runnable then) {
         show(title, text, yes, input, then, null, null);
     }
 
     /**
-     * Shows the dialog with a second choice.
-     *
-     * @param other label of the second choice, which runs {@code instead}; null: none
+     * Shows the dialog with a second choice, which runs {@code instead}; {@code other} null: none.
      */
     public void show(String title, String text, String yes, View input, final Runnable then,
             String other, final Runnable instead) {

@@ -1,7 +1,6 @@
 package org.raspilot.app.commands;
 
 import android.content.Context;
-import android.text.Editable;
 import android.text.InputFilter;
 import android.text.InputType;
 import org.raspilot.app.view.TextListener;
@@ -9,7 +8,6 @@ import android.text.method.DigitsKeyListener;
 import android.view.View;
 import android.widget.AdapterView;
 import android.widget.ArrayAdapter;
-import android.widget.CompoundButton;
 import android.widget.EditText;
 import android.widget.Spinner;
 import android.widget.Switch;
@@ -25,22 +23,23 @@ abstract class FieldInput {
     private static final int MAX_LENGTH = 4096;
     private static final String DIGITS = "0123456789.,-";
 
-    /** Called when text was typed or a choice made. */
-    interface ChangeListener {
-        void onChange();
-    }
-
-    /** Returns the input that a field needs. */
-    static FieldInput of(Context context, CommandField field, ChangeListener listener) {
+    static FieldInput of(Context context, CommandField field, Runnable onChange) {
         List<Object> choices = field.choices;
         if (choices == null && field.type == FieldType.BOOLEAN) {
             if (field.isRequired()) {
-                return new SwitchInput(context, listener);
+                return new SwitchInput(context, onChange);
             }
             choices = Arrays.<Object>asList("true", "false");
         }
-        return choices == null ? new TextInput(context, field, listener)
-                : new ChoiceInput(context, choices, listener);
+        return choices == null ? new TextInput(context, field, onChange)
+                : new ChoiceInput(context, choices, onChange);
+    }
+
+    final Runnable onChange;
+
+    /** Takes what runs when text was typed or a choice made. */
+    FieldInput(Runnable onChange) {
+        this.onChange = onChange;
     }
 
     abstract View view();
@@ -51,12 +50,11 @@ abstract class FieldInput {
     /** Writes or chooses; what cannot be chosen chooses nothing. */
     abstract void setText(String text);
 
-    private static final class TextInput extends FieldInput implements TextListener {
+    private static final class TextInput extends FieldInput {
         private final EditText view;
-        private final ChangeListener listener;
 
-        private TextInput(Context context, CommandField field, ChangeListener listener) {
-            this.listener = listener;
+        private TextInput(Context context, CommandField field, Runnable onChange) {
+            super(onChange);
             view = new EditText(context);
             view.setInputType(inputType(field));
             if (field.type == FieldType.NUMBER) {
@@ -66,7 +64,7 @@ abstract class FieldInput {
             }
             // The aircraft counts characters, this counts UTF-16 units: never split a pair.
             view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(MAX_LENGTH)});
-            view.addTextChangedListener(this);
+            view.addTextChangedListener((TextListener) text -> onChange.run());
         }
 
         @Override
@@ -83,11 +81,6 @@ abstract class FieldInput {
         void setText(String text) {
             view.setText(text);
             view.setSelection(view.length());
-        }
-
-        @Override
-        public void afterTextChanged(Editable text) {
-            listener.onChange();
         }
 
         private static int inputType(CommandField field) {
@@ -112,10 +105,9 @@ abstract class FieldInput {
             implements AdapterView.OnItemSelectedListener {
         private final Spinner view;
         private final List<String> texts = new ArrayList<>();
-        private final ChangeListener listener;
 
-        private ChoiceInput(Context context, List<Object> choices, ChangeListener listener) {
-            this.listener = listener;
+        private ChoiceInput(Context context, List<Object> choices, Runnable onChange) {
+            super(onChange);
             List<String> shown = new ArrayList<>();
             shown.add(context.getString(R.string.commands_choose));
             texts.add("");
@@ -149,26 +141,24 @@ abstract class FieldInput {
 
         @Override
         public void onItemSelected(AdapterView<?> parent, View item, int place, long id) {
-            listener.onChange();
+            onChange.run();
         }
 
         @Override
         public void onNothingSelected(AdapterView<?> parent) {
-            listener.onChange();
+            onChange.run();
         }
     }
 
-    private static final class SwitchInput extends FieldInput
-            implements CompoundButton.OnCheckedChangeListener {
+    private static final class SwitchInput extends FieldInput {
         private final Switch view;
-        private final ChangeListener listener;
 
-        private SwitchInput(Context context, ChangeListener listener) {
-            this.listener = listener;
+        private SwitchInput(Context context, Runnable onChange) {
+            super(onChange);
             view = new Switch(context);
             view.setTextOn(context.getString(R.string.commands_yes));
             view.setTextOff(context.getString(R.string.commands_no));
-            view.setOnCheckedChangeListener(this);
+            view.setOnCheckedChangeListener((button, isChecked) -> onChange.run());
         }
 
         @Override
@@ -184,11 +174,6 @@ abstract class FieldInput {
         @Override
         void setText(String text) {
             view.setChecked(Boolean.parseBoolean(text));
-        }
-
-        @Override
-        public void onCheckedChanged(CompoundButton button, boolean isChecked) {
-            listener.onChange();
         }
     }
 }

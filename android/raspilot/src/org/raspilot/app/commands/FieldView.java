@@ -14,7 +14,7 @@ import org.raspilot.up.commands.FieldType;
 import org.raspilot.up.commands.InvalidCommandException;
 
 /** One field of a form: its label, its input, its rule, its error. */
-final class FieldView implements FieldInput.ChangeListener {
+final class FieldView {
     private final CommandField field;
     private final Map<String, String> draft;
     private final View element;
@@ -30,7 +30,7 @@ final class FieldView implements FieldInput.ChangeListener {
         element = LayoutInflater.from(context).inflate(R.layout.row_field, form, false);
         form.addView(element);
         problem = (TextView) element.findViewById(R.id.field_problem);
-        input = FieldInput.of(context, field, this);
+        input = FieldInput.of(context, field, () -> onChange());
         View view = input.view();
         view.setMinimumHeight(context.getResources().getDimensionPixelSize(R.dimen.touch_least));
         view.setContentDescription(label(context.getResources()));
@@ -53,11 +53,6 @@ final class FieldView implements FieldInput.ChangeListener {
         input.setText(text);
     }
 
-    /** Returns whether the field accepts input now. */
-    void setEnabled(boolean isEnabled) {
-        input.view().setEnabled(isEnabled);
-    }
-
     /** Shows the error of the value; returns whether it is valid. */
     boolean validate() {
         String sentence = sentence(input.text());
@@ -65,13 +60,11 @@ final class FieldView implements FieldInput.ChangeListener {
         return sentence.isEmpty();
     }
 
-    /** Brings the reader to this field. */
     void focus() {
         input.view().requestFocus();
     }
 
-    @Override
-    public void onChange() {
+    private void onChange() {
         String text = input.text();
         draft.put(field.name, text);
         if (isReady) {

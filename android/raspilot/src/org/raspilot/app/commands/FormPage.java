@@ -21,7 +21,7 @@ import org.raspilot.up.commands.InvalidCommandException;
  * The form of any Command, made from its description. A Command whose one field is a choice of few
  * values has a button for each, with a confirmation.
  */
-final class FormPage extends Page implements View.OnClickListener {
+final class FormPage extends Page {
     private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
     private static final int MAX_CHOICES = 6;
 
@@ -34,7 +34,6 @@ final class FormPage extends Page implements View.OnClickListener {
     private final TextView problem;
     private final Button send;
 
-    /** Creates the form and restores its typed text. */
     FormPage(CommandForm form, CommandsScreen desk) {
         super(desk, R.layout.page_form);
         this.form = form;
@@ -46,7 +45,7 @@ final class FormPage extends Page implements View.OnClickListener {
         now = text(R.id.page_now);
         problem = text(R.id.page_problem);
         send = (Button) element.findViewById(R.id.page_send);
-        send.setOnClickListener(this);
+        send.setOnClickListener(pressed -> validate());
         ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
         if (isChoice(form)) {
             addChoices(list, form.fields().get(0));
@@ -74,8 +73,7 @@ final class FormPage extends Page implements View.OnClickListener {
         }
     }
 
-    @Override
-    public void onClick(View button) {
+    private void validate() {
         TextViews.showOrHide(problem, "");
         boolean isRight = true;
         for (FieldView field : fields) {

@@ -74,7 +74,6 @@ final class GainsEditor {
         }
     }
 
-    /** Returns whether any edit differs from the active gains. */
     boolean hasEdits() {
         return !edits.isEmpty();
     }
@@ -84,7 +83,6 @@ final class GainsEditor {
         return edits.containsKey(key);
     }
 
-    /** Returns the text of a cell. */
     String textOf(GainKey key) {
         Edit edit = edits.get(key);
         return edit == null ? text(key.of(flying)) : edit.written;

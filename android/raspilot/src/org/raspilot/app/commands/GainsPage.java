@@ -23,7 +23,7 @@ import org.raspilot.up.ground.GainsService.GainsEntry;
 import org.raspilot.up.ground.GainsService;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
-final class GainsPage extends Page implements View.OnClickListener, GainsTable.ChangeListener {
+final class GainsPage extends Page {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
             Collections.singletonMap("request", true);
@@ -42,7 +42,6 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
     private final Button send;
     private GainsService.Snapshot shown;
 
-    /** Creates the page and restores its edits. */
     GainsPage(CommandForm form, CommandsScreen desk) {
         super(desk, R.layout.page_gains);
         this.form = form;
@@ -53,12 +52,12 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         problem = text(R.id.gains_problem);
         difference = text(R.id.gains_difference);
         past = text(R.id.gains_past);
-        ask = button(R.id.gains_ask);
-        undo = button(R.id.gains_undo);
-        discard = button(R.id.gains_discard);
-        send = button(R.id.gains_send);
+        ask = button(R.id.gains_ask, pressed -> desk.requestGains());
+        undo = button(R.id.gains_undo, pressed -> confirmUndo());
+        discard = button(R.id.gains_discard, pressed -> discard());
+        send = button(R.id.gains_send, pressed -> confirmSend());
         updateActive();
-        table = new GainsTable(element, editor, this);
+        table = new GainsTable(element, editor, () -> update());
         update();
     }
 
@@ -80,28 +79,14 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         TextViews.showOrHide(past, pastText());
     }
 
-    @Override
-    public void onWritten() {
+    private void discard() {
+        editor.discard();
+        table.refill();
         update();
     }
 
-    @Override
-    public void onClick(View button) {
-        if (button == ask) {
-            desk.requestGains();
-        } else if (button == discard) {
-            editor.discard();
-            table.refill();
-            update();
-        } else if (button == undo) {
-            confirmUndo();
-        } else {
-            confirmSend();
-        }
-    }
-
     private void updateActive() {
-        GainsService.Snapshot newest = desk.gains();
+        GainsService.Snapshot newest = desk.picture().gains;
         if (newest != shown) {
             shown = newest;
             editor.setActive(newest == null ? null : newest.flying);
@@ -143,9 +128,8 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         if (shown == null || shown.flying == null || shown.reportedMs == null) {
             return context.getString(R.string.gains_unknown);
         }
-        long agoMs = Math.max(0, desk.picture().nowMs - shown.reportedMs) / 1000 * 1000;
         return context.getString(R.string.gains_told,
-                agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs));
+                Age.agoText(desk.picture().nowMs - shown.reportedMs));
     }
 
     private String warning() {
@@ -189,9 +173,9 @@ final class GainsPage extends Page implements View.OnClickListener, GainsTable.C
         return all.toString();
     }
 
-    private Button button(int id) {
+    private Button button(int id, View.OnClickListener pressed) {
         Button found = (Button) element.findViewById(id);
-        found.setOnClickListener(this);
+        found.setOnClickListener(pressed);
         return found;
     }
 

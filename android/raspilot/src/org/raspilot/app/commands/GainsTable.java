@@ -1,6 +1,5 @@
 package org.raspilot.app.commands;
 
-import android.text.Editable;
 import org.raspilot.app.view.TextListener;
 import android.view.LayoutInflater;
 import android.view.View;
@@ -26,21 +25,15 @@ final class GainsTable {
     private static final int[] CELLS = {R.id.gain_p, R.id.gain_i, R.id.gain_d};
     private static final int[] FLYING = {R.id.flying_p, R.id.flying_i, R.id.flying_d};
 
-    /** Called when a cell was edited. */
-    interface ChangeListener {
-        void onWritten();
-    }
-
     private final GainsEditor editor;
-    private final ChangeListener listener;
+    private final Runnable onWritten;
     private final InstrumentColors colors;
     private final List<Cell> cells = new ArrayList<>();
     private boolean isFilling;
 
-    /** Creates the cells in the list that the page has for them. */
-    GainsTable(View page, GainsEditor editor, ChangeListener listener) {
+    GainsTable(View page, GainsEditor editor, Runnable onWritten) {
         this.editor = editor;
-        this.listener = listener;
+        this.onWritten = onWritten;
         colors = InstrumentColors.of(page.getContext());
         ViewGroup list = (ViewGroup) page.findViewById(R.id.gains_table);
         LayoutInflater inflater = LayoutInflater.from(page.getContext());
@@ -99,13 +92,20 @@ final class GainsTable {
             // Each row has the same ids, so only the editor stores the texts.
             input.setSaveEnabled(false);
             Cell cell = new Cell(key, input, (TextView) row.findViewById(FLYING[term]));
-            input.addTextChangedListener(cell);
+            input.addTextChangedListener((TextListener) text -> write(key, text.toString()));
             cells.add(cell);
         }
         list.addView(row);
     }
 
-    private final class Cell implements TextListener {
+    private void write(GainKey key, String text) {
+        if (!isFilling) {
+            editor.write(key, text);
+            onWritten.run();
+        }
+    }
+
+    private static final class Cell {
         private final GainKey key;
         private final EditText input;
         private final TextView flying;
@@ -114,14 +114,6 @@ final class GainsTable {
             this.key = key;
             this.input = input;
             this.flying = flying;
-        }
-
-        @Override
-        public void afterTextChanged(Editable text) {
-            if (!isFilling) {
-                editor.write(key, text.toString());
-                listener.onWritten();
-            }
         }
     }
 }

@@ -8,9 +8,11 @@ import java.util.List;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.ground.Age;
+import org.raspilot.up.ground.Answer;
 
 /** The newest answer; a tap on it opens all sent Commands with their outcomes. */
-final class HistoryPanel implements View.OnClickListener {
+final class HistoryPanel {
     private final CommandHistory history;
     private final TextView newest;
     private final View box;
@@ -23,22 +25,16 @@ final class HistoryPanel implements View.OnClickListener {
         newest = (TextView) root.findViewById(R.id.commands_newest);
         box = root.findViewById(R.id.commands_history_box);
         all = (TextView) root.findViewById(R.id.commands_history);
-        newest.setOnClickListener(this);
+        newest.setOnClickListener(pressed -> toggle());
     }
 
-    /** Returns whether the whole history is open. */
-    boolean isOpen() {
+    private boolean isOpen() {
         return box.getVisibility() == View.VISIBLE;
     }
 
-    void setOpen(boolean isOpen) {
-        box.setVisibility(isOpen ? View.VISIBLE : View.GONE);
+    private void toggle() {
+        box.setVisibility(isOpen() ? View.GONE : View.VISIBLE);
         update();
-    }
-
-    @Override
-    public void onClick(View view) {
-        setOpen(!isOpen());
     }
 
     void update() {
@@ -49,7 +45,7 @@ final class HistoryPanel implements View.OnClickListener {
             TextViews.colour(newest, colors.dim);
         } else {
             TextViews.show(newest, line(words, entry));
-            TextViews.colour(newest, colour(entry.outcome));
+            TextViews.colour(newest, colour(entry.answer));
         }
         if (isOpen()) {
             TextViews.show(all, allText(words));
@@ -61,44 +57,45 @@ final class HistoryPanel implements View.OnClickListener {
         long nowMs = SystemClock.elapsedRealtime();
         StringBuilder text = new StringBuilder();
         for (CommandHistory.Entry each : entries) {
-            long agoS = Math.max(0, nowMs - each.atMs) / 1000;
-            String ago = agoS < 100 ? agoS + " s" : agoS / 60 + " min";
             text.append(text.length() == 0 ? "" : "\n\n");
-            text.append(words.getString(R.string.commands_entry, ago, line(words, each)));
+            text.append(words.getString(R.string.commands_entry,
+                    Age.agoText(nowMs - each.atMs), line(words, each)));
         }
         return text.length() == 0 ? words.getString(R.string.commands_nothing_sent)
                 : text.toString();
     }
 
     private static String line(Resources words, CommandHistory.Entry entry) {
-        switch (entry.outcome) {
-            case WAITING:
-                return words.getString(R.string.commands_waiting, entry.words);
-            case GOOD:
-                return entry.roundTripMs == null
+        Answer answer = entry.answer;
+        if (answer == null) {
+            return words.getString(R.string.commands_waiting, entry.words);
+        }
+        switch (answer.outcome) {
+            case ACK:
+                return answer.roundTripMs == null
                         ? words.getString(R.string.commands_done, entry.words)
                         : words.getString(R.string.commands_done_after, entry.words,
-                                entry.roundTripMs);
+                                answer.roundTripMs);
+            case NACK:
+                return words.getString(R.string.commands_refused, entry.words, answer.why());
             case REFUSED:
-                return words.getString(R.string.commands_refused, entry.words, entry.reason);
-            case UNSENT:
-                return words.getString(R.string.commands_unsent, entry.words, entry.reason);
+                return words.getString(R.string.commands_unsent, entry.words, answer.why());
             default:
-                return words.getString(R.string.commands_unclear, entry.words, entry.reason);
+                return words.getString(R.string.commands_unclear, entry.words, answer.why());
         }
     }
 
-    private int colour(CommandHistory.Outcome outcome) {
-        switch (outcome) {
-            case GOOD:
+    private int colour(Answer answer) {
+        if (answer == null) {
+            return colors.ink;
+        }
+        switch (answer.outcome) {
+            case ACK:
                 return colors.good;
-            case REFUSED:
-            case UNSENT:
-                return colors.alarm;
-            case UNKNOWN:
+            case TIMEOUT:
                 return colors.warning;
             default:
-                return colors.ink;
+                return colors.alarm;
         }
     }
 }

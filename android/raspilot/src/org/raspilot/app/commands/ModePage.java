@@ -13,6 +13,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.ground.FlightModes;
 
 /** A button for each flight mode that the aircraft reports; others show why they are not offered. */
@@ -65,7 +66,7 @@ final class ModePage extends Page {
     }
 
     private void confirm(String mode) {
-        BaseCommand command = new BaseCommand(form.name, Collections.singletonMap("mode", mode));
+        BaseCommand command = Commands.flightMode(mode);
         confirm(command, CommandTexts.asked(form.name, command.data()));
     }
 }

@@ -5,6 +5,7 @@ import java.util.HashMap;
 import java.util.HashSet;
 import java.util.Map;
 import java.util.Set;
+import org.raspilot.up.ground.EventLevel;
 
 /**
  * Decides when alarms sound: immediately, and repeatedly while their cause lasts, unless silenced.
@@ -16,23 +17,14 @@ final class AlarmBell {
     static final long ALARM_EACH_MS = 2000;
     static final long WARNING_EACH_MS = 10000;
 
-    enum Ring {
-        /** Nothing. */
-        NONE,
-        /** A warning. */
-        WARNING,
-        /** An alarm. */
-        ALARM
-    }
-
     private final Set<String> silenced = new HashSet<>();
     private final Set<String> heard = new HashSet<>();
-    private Map<String, Ring> loud = new HashMap<>();
+    private Map<String, EventLevel> loud = new HashMap<>();
     private long rangMs;
     private boolean hasRung;
 
     /** Takes the current audible alarms, by their kind. */
-    void update(Map<String, Ring> wrong) {
+    void update(Map<String, EventLevel> wrong) {
         loud = new HashMap<>(wrong);
         Set<String> words = words();
         silenced.retainAll(words);
@@ -53,25 +45,24 @@ final class AlarmBell {
         silenced.addAll(Arrays.asList(words));
     }
 
-    /** Returns whether an audible alarm is active. */
     boolean isRinging() {
-        return worst() != Ring.NONE;
+        return worst() != null;
     }
 
-    /** Returns the sound to play at this moment. */
-    Ring ringAt(long nowMs) {
-        Ring worst = worst();
-        if (worst == Ring.NONE) {
-            return Ring.NONE;
+    /** Returns what is to sound at this moment; null: nothing. */
+    EventLevel ringAt(long nowMs) {
+        EventLevel worst = worst();
+        if (worst == null) {
+            return null;
         }
-        long eachMs = worst == Ring.ALARM ? ALARM_EACH_MS : WARNING_EACH_MS;
+        long eachMs = worst == EventLevel.ALARM ? ALARM_EACH_MS : WARNING_EACH_MS;
         Set<String> sounding = words();
         sounding.removeAll(silenced);
         boolean isNew = !heard.containsAll(sounding);
         long sinceMs = nowMs - rangMs;
         // Another service has another clock: a time in the future is invalid.
         if (hasRung && !isNew && sinceMs >= 0 && sinceMs < eachMs) {
-            return Ring.NONE;
+            return null;
         }
         heard.addAll(sounding);
         hasRung = true;
@@ -79,10 +70,10 @@ final class AlarmBell {
         return worst;
     }
 
-    private Ring worst() {
-        Ring worst = Ring.NONE;
-        for (Map.Entry<String, Ring> each : loud.entrySet()) {
-            boolean isWorse = each.getValue().compareTo(worst) > 0;
+    private EventLevel worst() {
+        EventLevel worst = null;
+        for (Map.Entry<String, EventLevel> each : loud.entrySet()) {
+            boolean isWorse = worst == null || each.getValue().compareTo(worst) > 0;
             if (isWorse && !silenced.contains(word(each))) {
                 worst = each.getValue();
             }
@@ -92,13 +83,13 @@ final class AlarmBell {
 
     private Set<String> words() {
         Set<String> words = new HashSet<>();
-        for (Map.Entry<String, Ring> each : loud.entrySet()) {
+        for (Map.Entry<String, EventLevel> each : loud.entrySet()) {
             words.add(word(each));
         }
         return words;
     }
 
-    private static String word(Map.Entry<String, Ring> each) {
+    private static String word(Map.Entry<String, EventLevel> each) {
         return each.getKey() + " " + each.getValue();
     }
 }

@@ -14,7 +14,7 @@ import org.raspilot.up.ground.Alarm;
 import org.raspilot.up.ground.EventLevel;
 
 /** The active alarms in words, and the button that silences them. Hidden without alarms. */
-final class AlarmPanel implements View.OnClickListener {
+final class AlarmPanel {
     private final View element;
     private final TextView text;
     private final Button silence;
@@ -30,7 +30,7 @@ final class AlarmPanel implements View.OnClickListener {
         element = root.findViewById(R.id.ground_alarms);
         text = (TextView) root.findViewById(R.id.ground_alarm_text);
         silence = (Button) root.findViewById(R.id.ground_silence);
-        silence.setOnClickListener(this);
+        silence.setOnClickListener(pressed -> silence());
     }
 
     /** Shows the current state, and sounds the due alarms. */
@@ -50,20 +50,17 @@ final class AlarmPanel implements View.OnClickListener {
         silence.setVisibility(bell.isRinging() ? View.VISIBLE : View.GONE);
     }
 
-    @Override
-    public void onClick(View button) {
+    private void silence() {
         bell.silence();
         sounder.stop();
         silence.setVisibility(View.GONE);
     }
 
-    private static Map<String, AlarmBell.Ring> loud(List<Alarm> active) {
-        Map<String, AlarmBell.Ring> loud = new HashMap<>();
+    private static Map<String, EventLevel> loud(List<Alarm> active) {
+        Map<String, EventLevel> loud = new HashMap<>();
         for (Alarm each : active) {
             if (each.isLoud()) {
-                boolean isAlarm = each.level == EventLevel.ALARM;
-                loud.put(each.kind,
-                        isAlarm ? AlarmBell.Ring.ALARM : AlarmBell.Ring.WARNING);
+                loud.put(each.kind, each.level);
             }
         }
         return loud;

@@ -12,7 +12,7 @@ import org.raspilot.up.ground.ControlStatus;
 import org.raspilot.up.ground.GroundStatus;
 
 /** The owner of control and the state of the link, with the buttons for control. */
-public final class ControlPanel implements View.OnClickListener {
+public final class ControlPanel {
     private final TextView link;
     private final TextView seat;
     private final Button take;
@@ -26,8 +26,8 @@ public final class ControlPanel implements View.OnClickListener {
         seat = (TextView) root.findViewById(R.id.control_line);
         take = (Button) root.findViewById(R.id.control_take);
         give = (Button) root.findViewById(R.id.control_give);
-        take.setOnClickListener(this);
-        give.setOnClickListener(this);
+        take.setOnClickListener(pressed -> take());
+        give.setOnClickListener(pressed -> give());
     }
 
     /** Sets the ground; null: none. */
@@ -60,16 +60,17 @@ public final class ControlPanel implements View.OnClickListener {
         }
     }
 
-    @Override
-    public void onClick(View button) {
+    private void give() {
+        if (ground != null && asker != null) {
+            ground.giveControl(asker);
+        }
+    }
+
+    private void take() {
         if (ground == null) {
             return;
         }
-        if (button.getId() == R.id.control_give) {
-            if (asker != null) {
-                ground.giveControl(asker);
-            }
-        } else if (isOurs) {
+        if (isOurs) {
             ground.releaseControl();
         } else {
             ground.requestControl();
@@ -94,7 +95,7 @@ public final class ControlPanel implements View.OnClickListener {
         }
         Double wayMs = status.roundTripMs;
         String rate = words.getString(R.string.control_rate, status.rateHz,
-                status.counters.lostFrames);
+                status.lostFrames);
         return text + " " + (wayMs == null ? rate : rate + " "
                 + words.getString(R.string.control_way, Math.round(wayMs)));
     }

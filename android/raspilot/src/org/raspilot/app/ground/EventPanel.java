@@ -29,19 +29,13 @@ final class EventPanel {
             int oldest = Math.max(0, events.size() - MAX_EVENTS);
             for (int each = events.size() - 1; each >= oldest; each--) {
                 Event event = events.get(each);
-                long agoMs = Math.max(0, picture.nowMs - event.atMs) / 1000 * 1000;
                 all.append(all.length() == 0 ? "" : "\n");
                 all.append(view.getResources().getString(R.string.ground_event,
-                        ControlPanel.sentence(event.text), ago(agoMs)));
+                        ControlPanel.sentence(event.text), Age.agoText(picture.nowMs - event.atMs)));
             }
         }
         String text = all.length() == 0
                 ? view.getResources().getString(R.string.ground_no_events) : all.toString();
         TextViews.show(view, text);
-    }
-
-    /** Whole seconds: running hundredths are useless here. */
-    private static String ago(long agoMs) {
-        return agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs);
     }
 }

@@ -23,7 +23,6 @@ import org.raspilot.up.commands.CommandCatalogue;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.CommandGate;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.Earth;
@@ -32,7 +31,7 @@ import org.raspilot.up.ground.Home;
 import org.raspilot.up.ground.Telemetry;
 
 /** RETURN and LOITER by a button, GUIDED and home by a tap on the track; each is confirmed. */
-final class FlightActions implements View.OnClickListener, TrackView.TapListener {
+final class FlightActions implements TrackView.TapListener {
     private static final String TARGET = "up.navigation.target";
     private static final String HOME = "up.home.set";
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
@@ -54,8 +53,8 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         confirmation = new Confirmation(activity);
         home = (Button) root.findViewById(R.id.ground_return);
         loiter = (Button) root.findViewById(R.id.ground_loiter);
-        home.setOnClickListener(this);
-        loiter.setOnClickListener(this);
+        home.setOnClickListener(pressed -> ask(FlightModes.RETURN));
+        loiter.setOnClickListener(pressed -> ask(FlightModes.LOITER));
         ((TrackView) root.findViewById(R.id.ground_track)).setTapListener(this);
         CommandCatalogue catalogue = catalogue(activity);
         mode = catalogue == null ? null : catalogue.form(Commands.FLIGHT_MODE);
@@ -90,9 +89,7 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         button.setEnabled(isOffered && code == null);
     }
 
-    @Override
-    public void onClick(View button) {
-        final String name = button == home ? FlightModes.RETURN : FlightModes.LOITER;
+    private void ask(String name) {
         String now = FlightModes.acting(GroundSnapshot.of(ground).telemetry);
         confirmation.show(activity.getString(R.string.fly_question, name),
                 activity.getString(R.string.fly_now, now), name, null, () -> select(name));
@@ -151,7 +148,7 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
     }
 
     private void select(String name) {
-        send(new BaseCommand(Commands.FLIGHT_MODE, Collections.singletonMap("mode", name)), null);
+        send(Commands.flightMode(name), null);
     }
 
     /** Sends a Command; {@code then} runs when the aircraft carried it out. */
@@ -160,8 +157,8 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
             return;
         }
         ground.send(command, frame.shownBeacon(), answer -> {
-            if (answer.outcome != Answer.Outcome.ACK) {
-                say(answer.reason.isEmpty() ? answer.code : answer.reason);
+            if (!answer.isAck()) {
+                say(answer.why());
             } else if (then != null) {
                 then.run();
             }

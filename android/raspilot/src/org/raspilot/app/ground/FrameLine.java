@@ -20,7 +20,6 @@ public final class FrameLine implements FrameText.DrawnListener {
     private final InstrumentColors colors;
     private Long shownBeacon;
 
-    /** Takes the view that shows it. */
     public FrameLine(FrameText view) {
         this.view = view;
         colors = InstrumentColors.of(view.getContext());
@@ -51,10 +50,10 @@ public final class FrameLine implements FrameText.DrawnListener {
     public void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         Resources words = view.getResources();
-        Long ageMs = telemetry.ageMs(picture.nowMs);
+        Long ageMs = telemetry.age.frameMs(picture.nowMs);
         if (ageMs == null) {
             show(words.getString(R.string.frame_none), colors.dim, null);
-        } else if (telemetry.isSilent(picture.nowMs)) {
+        } else if (telemetry.age.isSilent(picture.nowMs)) {
             int text = telemetry.age.isLate(picture.nowMs)
                     ? R.string.frame_late : R.string.frame_silent;
             show(words.getString(text, Age.text(ageMs)), colors.alarm, telemetry.beacon);

@@ -21,11 +21,7 @@ final class GroundSpeed {
     private int count;
 
     /**
-     * Takes a position; a fix repeated in many frames counts once.
-     *
-     * @param latitudeDeg -90 to 90 degrees
-     * @param longitudeDeg -180 to 180 degrees
-     * @param measuredMs time of measurement, by one monotonic clock
+     * Takes a position, degrees, and when it was measured; one repeated in many frames counts once.
      */
     void update(double latitudeDeg, double longitudeDeg, long measuredMs) {
         if (count > 0) {

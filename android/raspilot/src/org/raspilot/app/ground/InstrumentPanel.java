@@ -68,7 +68,7 @@ final class InstrumentPanel {
         Telemetry telemetry = picture.telemetry;
         Double latitude = telemetry.number("location.latitude");
         Double longitude = telemetry.number("location.longitude");
-        Long ageMs = telemetry.readingAgeMs("location", picture.nowMs);
+        Long ageMs = telemetry.age.readingMs("location", picture.nowMs);
         if (latitude != null && longitude != null && ageMs != null) {
             groundSpeed.update(latitude, longitude, picture.nowMs - ageMs);
         }
@@ -99,7 +99,7 @@ final class InstrumentPanel {
     /** Returns the age of the value at a path: the reading's age, otherwise its frame's. */
     static String ageText(GroundSnapshot picture, String path) {
         Telemetry telemetry = picture.telemetry;
-        Long ageMs = telemetry.readingAgeMs(Telemetry.readingOf(path), picture.nowMs);
-        return Age.text(ageMs == null ? telemetry.ageMs(picture.nowMs) : ageMs);
+        Long ageMs = telemetry.age.readingMs(Telemetry.readingOf(path), picture.nowMs);
+        return Age.text(ageMs == null ? telemetry.age.frameMs(picture.nowMs) : ageMs);
     }
 }

@@ -9,7 +9,7 @@ import org.raspilot.app.R;
  * Shows one of track, state and values if only one fits; a layout with room for all has no buttons,
  * and everything stays visible.
  */
-final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
+final class PanelSwitch {
     private static final String CHOSEN = "ground.panel";
     private static final int[] BUTTONS = {
         R.id.ground_show_track, R.id.ground_show_state, R.id.ground_show_values
@@ -26,7 +26,7 @@ final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
         this.root = root;
         buttons = (RadioGroup) root.findViewById(R.id.ground_panels);
         if (buttons != null) {
-            buttons.setOnCheckedChangeListener(this);
+            buttons.setOnCheckedChangeListener((group, button) -> show(chosen(0)));
             buttons.check(BUTTONS[chosen]);
             show(chosen);
         }
@@ -53,11 +53,6 @@ final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
 
     static void keep(Bundle state, int chosen) {
         state.putInt(CHOSEN, chosen);
-    }
-
-    @Override
-    public void onCheckedChanged(RadioGroup group, int button) {
-        show(chosen(0));
     }
 
     private void show(int chosen) {

@@ -15,13 +15,9 @@ import org.raspilot.up.ground.Freshness;
 final class Row {
     /** The colour of a current value. */
     enum Look {
-        /** As any other. */
         PLAIN,
-        /** Normal. */
         GOOD,
-        /** It needs attention. */
         WARNING,
-        /** It needs a hand now. */
         ALARM
     }
 
@@ -55,13 +51,7 @@ final class Row {
         TextViews.show(label, text);
     }
 
-    /**
-     * Shows a value.
-     *
-     * @param text of the value; ignored if it is unknown
-     * @param freshness LIVE, STALE (grey, hatched, with its age) or NONE
-     * @param age in words
-     */
+    /** Shows a value; a stale one is grey and hatched, with its age in words. */
     void show(String text, Freshness freshness, String age, Look look) {
         boolean isStale = freshness == Freshness.STALE;
         String shown = freshness == Freshness.NONE ? Instrument.UNKNOWN : text;

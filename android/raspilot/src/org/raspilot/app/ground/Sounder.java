@@ -5,6 +5,7 @@ import android.media.AudioManager;
 import android.media.ToneGenerator;
 import android.os.Vibrator;
 import android.util.Log;
+import org.raspilot.up.ground.EventLevel;
 
 /** Sounds and vibrates for alarms; a phone that can do neither does neither. Main thread only. */
 final class Sounder {
@@ -23,12 +24,12 @@ final class Sounder {
         this.context = context.getApplicationContext();
     }
 
-    /** Plays the sound and vibration of a ring. */
-    void ring(AlarmBell.Ring ring) {
-        if (ring == AlarmBell.Ring.NONE) {
+    /** Sounds an alarm or a warning; null: nothing. */
+    void ring(EventLevel ring) {
+        if (ring == null) {
             return;
         }
-        boolean isAlarm = ring == AlarmBell.Ring.ALARM;
+        boolean isAlarm = ring == EventLevel.ALARM;
         if (tones == null) {
             tones = newTones();
         }

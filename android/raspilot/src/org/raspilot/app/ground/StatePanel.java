@@ -1,11 +1,9 @@
 package org.raspilot.app.ground;
 
 import android.content.Context;
-import android.content.Intent;
-import android.content.IntentFilter;
 import android.content.res.Resources;
-import android.os.BatteryManager;
 import android.text.TextUtils;
+import android.util.SparseArray;
 import android.view.View;
 import android.view.ViewGroup;
 import java.util.LinkedHashMap;
@@ -14,6 +12,7 @@ import java.util.Locale;
 import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.up.android.BatterySource;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Alarms;
@@ -22,61 +21,38 @@ import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetrySchema;
 import org.raspilot.up.ground.TelemetryText;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 
 /** Control, mode, vetoes, and the state of board, phones and load. */
 final class StatePanel {
     private static final double LOW_PERCENT = Alarms.limit("battery_low");
     private static final long BATTERY_EACH_MS = 5000;
+    /** The rows that are always there, in their order. */
+    private static final int[] LABELS = {
+        R.string.state_mode, R.string.state_fallback, R.string.state_motor, R.string.state_vetoes,
+        R.string.state_failsafe, R.string.state_panic, R.string.state_stale,
+        R.string.state_switch, R.string.state_raspilot, R.string.state_receiver,
+        R.string.state_imu, R.string.state_board, R.string.state_home,
+        R.string.state_flight_battery, R.string.state_aircraft_battery,
+        R.string.state_phone_battery, R.string.state_load, R.string.state_black_box
+    };
 
     private final Context context;
     private final Resources words;
-    private final Row mode;
-    private final Row fallback;
-    private final Row armed;
-    private final Row vetoes;
-    private final Row raspilot;
-    private final Row switchRow;
-    private final Row failsafe;
-    private final Row receiver;
-    private final Row imu;
-    private final Row board;
-    private final Row panic;
-    private final Row load;
-    private final Row stale;
-    private final Row home;
-    private final Row flightBattery;
-    private final Row aircraftBattery;
-    private final Row phoneBattery;
-    private final Row blackBox;
+    private final SparseArray<Row> rows = new SparseArray<>();
     private final Map<String, Row> navigation = new LinkedHashMap<>();
     private String phonePercent = "";
     private boolean isPhoneLow;
     private long batteryLookedMs;
 
-    /** Makes its rows in the list that a layout has for them. */
     StatePanel(View root) {
         context = root.getContext().getApplicationContext();
         words = root.getResources();
         ViewGroup list = (ViewGroup) root.findViewById(R.id.ground_state);
         InstrumentColors colors = InstrumentColors.of(root.getContext());
-        mode = Row.in(list, R.string.state_mode, colors);
-        fallback = Row.in(list, R.string.state_fallback, colors);
-        armed = Row.in(list, R.string.state_motor, colors);
-        vetoes = Row.in(list, R.string.state_vetoes, colors);
-        failsafe = Row.in(list, R.string.state_failsafe, colors);
-        panic = Row.in(list, R.string.state_panic, colors);
-        stale = Row.in(list, R.string.state_stale, colors);
-        switchRow = Row.in(list, R.string.state_switch, colors);
-        raspilot = Row.in(list, R.string.state_raspilot, colors);
-        receiver = Row.in(list, R.string.state_receiver, colors);
-        imu = Row.in(list, R.string.state_imu, colors);
-        board = Row.in(list, R.string.state_board, colors);
-        home = Row.in(list, R.string.state_home, colors);
-        flightBattery = Row.in(list, R.string.state_flight_battery, colors);
-        aircraftBattery = Row.in(list, R.string.state_aircraft_battery, colors);
-        phoneBattery = Row.in(list, R.string.state_phone_battery, colors);
-        load = Row.in(list, R.string.state_load, colors);
-        blackBox = Row.in(list, R.string.state_black_box, colors);
+        for (int label : LABELS) {
+            rows.put(label, Row.in(list, label, colors));
+        }
         for (Map.Entry<String, String> each : TelemetrySchema.navigation().entrySet()) {
             Row row = Row.in(list, R.string.state_home, colors);
             row.label(each.getKey());
@@ -87,29 +63,30 @@ final class StatePanel {
     void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         String flown = FlightModes.actingWithProgress(telemetry);
-        show(mode, picture, "flight_mode", flown, Row.Look.PLAIN);
+        show(row(R.string.state_mode), picture, "flight_mode", flown, Row.Look.PLAIN);
         String replaced = FlightModes.fallback(telemetry);
-        fallback.setVisible(replaced != null);
-        show(fallback, picture, "flight_control.fallback", replaced, Row.Look.ALARM);
-        text(raspilot, picture, "mode");
-        text(switchRow, picture, "arduino.switch");
+        row(R.string.state_fallback).setVisible(replaced != null);
+        show(row(R.string.state_fallback), picture, "flight_control.fallback", replaced,
+                Row.Look.ALARM);
+        text(row(R.string.state_raspilot), picture, "mode");
+        text(row(R.string.state_switch), picture, "arduino.switch");
         Boolean isArmed = telemetry.flag("armed");
-        flag(armed, picture, "armed", R.string.armed_yes, R.string.armed_no, Row.Look.WARNING,
-                Row.Look.PLAIN);
+        flag(row(R.string.state_motor), picture, "armed", R.string.armed_yes, R.string.armed_no,
+                Row.Look.WARNING, Row.Look.PLAIN);
         showVetoes(picture, isArmed);
         String cause = FlightModes.failsafe(telemetry);
         if (cause != null) {
-            show(failsafe, picture, "failsafe.cause", cause, Row.Look.ALARM);
+            show(row(R.string.state_failsafe), picture, "failsafe.cause", cause, Row.Look.ALARM);
         } else {
-            flag(failsafe, picture, "arduino.failsafe", R.string.state_acts, R.string.state_no,
-                    Row.Look.ALARM, Row.Look.PLAIN);
+            flag(row(R.string.state_failsafe), picture, "arduino.failsafe", R.string.state_acts,
+                    R.string.state_no, Row.Look.ALARM, Row.Look.PLAIN);
         }
-        flag(receiver, picture, "arduino.receiver_valid", R.string.state_valid,
+        flag(row(R.string.state_receiver), picture, "arduino.receiver_valid", R.string.state_valid,
                 R.string.state_invalid, Row.Look.PLAIN, Row.Look.ALARM);
-        flag(imu, picture, "arduino.imu_valid", R.string.state_valid, R.string.state_invalid,
-                Row.Look.PLAIN, Row.Look.ALARM);
-        flag(board, picture, "arduino.connected", R.string.state_connected, R.string.state_gone,
-                Row.Look.PLAIN, Row.Look.ALARM);
+        flag(row(R.string.state_imu), picture, "arduino.imu_valid", R.string.state_valid,
+                R.string.state_invalid, Row.Look.PLAIN, Row.Look.ALARM);
+        flag(row(R.string.state_board), picture, "arduino.connected", R.string.state_connected,
+                R.string.state_gone, Row.Look.PLAIN, Row.Look.ALARM);
         showPanic(picture);
         showLoad(picture);
         showHome(picture);
@@ -138,7 +115,7 @@ final class StatePanel {
                 : TextUtils.join("; ", all);
         // In the air a veto is not a warning: it only states what blocks arming again.
         boolean isWarning = !isFree && !Boolean.TRUE.equals(isArmed);
-        show(vetoes, picture, "vetoes", all == null ? null : text,
+        show(row(R.string.state_vetoes), picture, "vetoes", all == null ? null : text,
                 isWarning ? Row.Look.WARNING : Row.Look.PLAIN);
     }
 
@@ -149,7 +126,7 @@ final class StatePanel {
             text = isPanic
                     ? TelemetryText.busy(picture.telemetry) : words.getString(R.string.state_no);
         }
-        show(panic, picture, "load.panic", text, Row.Look.PLAIN);
+        show(row(R.string.state_panic), picture, "load.panic", text, Row.Look.PLAIN);
     }
 
     private void showLoad(GroundSnapshot picture) {
@@ -157,7 +134,7 @@ final class StatePanel {
         Double ram = picture.telemetry.number("load.ram");
         String text = cpu == null || ram == null ? null
                 : words.getString(R.string.state_load_value, Math.round(cpu), Math.round(ram));
-        show(load, picture, "load.cpu", text, Row.Look.PLAIN);
+        show(row(R.string.state_load), picture, "load.cpu", text, Row.Look.PLAIN);
     }
 
     private void showHome(GroundSnapshot picture) {
@@ -166,71 +143,71 @@ final class StatePanel {
         String text = distance == null || bearing == null ? null
                 : words.getString(R.string.state_home_value, Math.round(distance),
                         Math.round(bearing));
-        show(home, picture, "home.distance", text, Row.Look.PLAIN);
+        show(row(R.string.state_home), picture, "home.distance", text, Row.Look.PLAIN);
     }
 
     private void showStale(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
-        if (telemetry.isSilent(picture.nowMs)) {
-            boolean wasThere = telemetry.ageMs(picture.nowMs) != null;
+        if (telemetry.age.isSilent(picture.nowMs)) {
+            boolean wasThere = telemetry.age.frameMs(picture.nowMs) != null;
             String text = words.getString(wasThere ? R.string.state_all : R.string.state_nothing);
-            stale.show(text, Freshness.LIVE, "", Row.Look.ALARM);
+            row(R.string.state_stale).show(text, Freshness.LIVE, "", Row.Look.ALARM);
             return;
         }
         StringBuilder all = new StringBuilder();
         for (String reading : Age.readings()) {
-            if (telemetry.readingAgeMs(reading, picture.nowMs) != null
+            if (telemetry.age.readingMs(reading, picture.nowMs) != null
                     && telemetry.age.isStale(reading, picture.nowMs)) {
                 all.append(all.length() == 0 ? "" : ", ").append(reading);
             }
         }
         boolean isFresh = all.length() == 0;
-        stale.show(isFresh ? words.getString(R.string.state_none) : all.toString(),
-                Freshness.LIVE, "", isFresh ? Row.Look.PLAIN : Row.Look.WARNING);
+        String text = isFresh ? words.getString(R.string.state_none) : all.toString();
+        row(R.string.state_stale).show(text, Freshness.LIVE, "",
+                isFresh ? Row.Look.PLAIN : Row.Look.WARNING);
     }
 
     private void showBatteries(GroundSnapshot picture) {
         String voltage = TelemetryText.value(picture.telemetry, "arduino.flight_battery_v");
         boolean isCritical = isTrue(picture, "arduino.flight_battery_critical");
         boolean isLow = isTrue(picture, "arduino.flight_battery_low");
-        show(flightBattery, picture, "arduino.flight_battery_v", voltage,
+        show(row(R.string.state_flight_battery), picture, "arduino.flight_battery_v", voltage,
                 isCritical ? Row.Look.ALARM : isLow ? Row.Look.WARNING : Row.Look.PLAIN);
         Double percent = picture.telemetry.number("android.batteryLevel");
         String text = percent == null ? null : percent(percent);
-        show(aircraftBattery, picture, "android.batteryLevel", text,
+        show(row(R.string.state_aircraft_battery), picture, "android.batteryLevel", text,
                 percent != null && percent < LOW_PERCENT ? Row.Look.WARNING : Row.Look.PLAIN);
         long nowMs = android.os.SystemClock.elapsedRealtime();
         if (phonePercent.isEmpty() || nowMs - batteryLookedMs > BATTERY_EACH_MS) {
             batteryLookedMs = nowMs;
             readBattery();
         }
-        phoneBattery.show(phonePercent,
+        row(R.string.state_phone_battery).show(phonePercent,
                 phonePercent.isEmpty() ? Freshness.NONE : Freshness.LIVE, "",
                 isPhoneLow ? Row.Look.WARNING : Row.Look.PLAIN);
     }
 
     private void readBattery() {
-        Intent told = context.registerReceiver(null,
-                new IntentFilter(Intent.ACTION_BATTERY_CHANGED));
-        int level = told == null ? -1 : told.getIntExtra(BatteryManager.EXTRA_LEVEL, -1);
-        int scale = told == null ? 0 : told.getIntExtra(BatteryManager.EXTRA_SCALE, 0);
-        boolean isKnown = level >= 0 && scale > 0;
-        double percent = isKnown ? 100.0 * level / scale : 0;
-        phonePercent = isKnown ? percent(percent) : "";
-        isPhoneLow = isKnown && percent < LOW_PERCENT;
+        BatteryLevel level = BatterySource.level(context);
+        phonePercent = level == null ? "" : percent(level.percent);
+        isPhoneLow = level != null && level.percent < LOW_PERCENT;
     }
 
     private void showBlackBox(GroundSnapshot picture) {
         String problem = picture.telemetry.text("black_box.problem");
         Boolean isRecording = picture.telemetry.flag("black_box.recording");
-        blackBox.setVisible(isRecording != null);
+        row(R.string.state_black_box).setVisible(isRecording != null);
         if (isRecording == null) {
             return;
         }
         String text = problem != null ? problem
                 : words.getString(isRecording ? R.string.state_records : R.string.state_no);
-        show(blackBox, picture, "black_box.recording", text,
+        show(row(R.string.state_black_box), picture, "black_box.recording", text,
                 problem != null ? Row.Look.WARNING : Row.Look.PLAIN);
+    }
+
+    private Row row(int label) {
+        return rows.get(label);
     }
 
     private static boolean isTrue(GroundSnapshot picture, String path) {

@@ -8,6 +8,7 @@ import android.view.View;
 import android.widget.TextView;
 import android.widget.Toast;
 import java.util.List;
+import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
@@ -20,7 +21,7 @@ import org.raspilot.up.ground.Track.TrackPoint;
 import org.raspilot.up.ground.Track;
 
 /** The track, the aircraft's position, and a link to the system's own map. */
-final class TrackPanel implements View.OnClickListener {
+final class TrackPanel {
     private final Activity activity;
     private final TrackView view;
     private final TextView place;
@@ -34,10 +35,10 @@ final class TrackPanel implements View.OnClickListener {
         view = (TrackView) root.findViewById(R.id.ground_track);
         place = (TextView) root.findViewById(R.id.ground_place);
         map = root.findViewById(R.id.ground_map);
-        map.setOnClickListener(this);
-        root.findViewById(R.id.ground_follow).setOnClickListener(this);
-        root.findViewById(R.id.ground_larger).setOnClickListener(this);
-        root.findViewById(R.id.ground_smaller).setOnClickListener(this);
+        map.setOnClickListener(pressed -> openMap());
+        root.findViewById(R.id.ground_follow).setOnClickListener(pressed -> view.follow());
+        root.findViewById(R.id.ground_larger).setOnClickListener(pressed -> view.enlarge());
+        root.findViewById(R.id.ground_smaller).setOnClickListener(pressed -> view.shrink());
     }
 
     void update(GroundSnapshot picture) {
@@ -67,20 +68,6 @@ final class TrackPanel implements View.OnClickListener {
         String age = InstrumentPanel.ageText(picture, "location.latitude");
         view.setFreshness(freshness, age);
         showPlace(picture, age);
-    }
-
-    @Override
-    public void onClick(View button) {
-        int id = button.getId();
-        if (id == R.id.ground_follow) {
-            view.follow();
-        } else if (id == R.id.ground_larger) {
-            view.enlarge();
-        } else if (id == R.id.ground_smaller) {
-            view.shrink();
-        } else if (id == R.id.ground_map) {
-            openMap();
-        }
     }
 
     private boolean isNew(Track.Snapshot track) {
@@ -141,7 +128,9 @@ final class TrackPanel implements View.OnClickListener {
             return;
         }
         String label = Uri.encode(activity.getString(R.string.ground_map_label));
-        Uri uri = Uri.parse(GeoUri.of(latitudeDeg, longitudeDeg, label));
+        // Not the user's language: a decimal comma would be another place.
+        String at = String.format(Locale.ROOT, "%.7f,%.7f", latitudeDeg, longitudeDeg);
+        Uri uri = Uri.parse("geo:" + at + "?q=" + at + "(" + label + ")");
         try {
             activity.startActivity(new Intent(Intent.ACTION_VIEW, uri));
         } catch (ActivityNotFoundException none) {

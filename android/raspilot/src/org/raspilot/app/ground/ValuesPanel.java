@@ -1,6 +1,5 @@
 package org.raspilot.app.ground;
 
-import android.text.Editable;
 import org.raspilot.app.view.TextListener;
 import android.view.LayoutInflater;
 import android.view.View;
@@ -11,8 +10,8 @@ import android.widget.ListView;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import java.util.Locale;
 import org.raspilot.app.R;
+import org.raspilot.app.commands.CommandGroup;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Telemetry;
@@ -20,7 +19,7 @@ import org.raspilot.up.ground.TelemetryText.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
 
 /** Every value of the newest frame, including those of unknown modules. */
-final class ValuesPanel extends BaseAdapter implements TextListener {
+final class ValuesPanel extends BaseAdapter {
     private final View element;
     private final EditText filter;
     private final ListView list;
@@ -36,7 +35,7 @@ final class ValuesPanel extends BaseAdapter implements TextListener {
         colors = InstrumentColors.of(root.getContext());
         element = root.findViewById(R.id.ground_values_box);
         filter = (EditText) root.findViewById(R.id.ground_filter);
-        filter.addTextChangedListener(this);
+        filter.addTextChangedListener((TextListener) text -> choose());
         list = (ListView) root.findViewById(R.id.ground_values);
         list.setAdapter(this);
     }
@@ -70,14 +69,8 @@ final class ValuesPanel extends BaseAdapter implements TextListener {
     /** Returns the rows whose path contains each of the words, ignoring case. */
     private static List<TelemetryRow> chosen(List<TelemetryRow> all, String words) {
         List<TelemetryRow> found = new ArrayList<>();
-        String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");
         for (TelemetryRow row : all) {
-            String path = row.path.toLowerCase(Locale.ROOT);
-            boolean isChosen = true;
-            for (String word : each) {
-                isChosen &= path.contains(word);
-            }
-            if (isChosen) {
+            if (CommandGroup.matches(words, row.path)) {
                 found.add(row);
             }
         }
@@ -125,9 +118,8 @@ final class ValuesPanel extends BaseAdapter implements TextListener {
         return element;
     }
 
-    @Override
-    public void afterTextChanged(Editable text) {
-        rows = chosen(all, text.toString());
+    private void choose() {
+        rows = chosen(all, filter.getText().toString());
         notifyDataSetChanged();
     }
 }

@@ -19,7 +19,6 @@ public final class AttitudeView extends Instrument {
     private float rollDeg;
     private float pitchDeg;
 
-    /** Creates the view from a layout. */
     public AttitudeView(Context context, AttributeSet attributes) {
         super(context, attributes);
         labels = new String[geometry.rungCount()];

@@ -9,12 +9,7 @@ public final class BarsGeometry {
     private BarsGeometry() {
     }
 
-    /**
-     * Returns the position of a pulse.
-     *
-     * @param pulseUs microseconds
-     * @return -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and never beyond 1.1
-     */
+    /** Returns -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and never beyond 1.1. */
     public static float share(double pulseUs) {
         return Math.max(-MAX_SHARE, Math.min(MAX_SHARE, (float) (pulseUs - MIDDLE_US) / HALF_US));
     }

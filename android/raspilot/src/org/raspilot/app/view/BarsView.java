@@ -28,12 +28,7 @@ public final class BarsView extends Instrument {
         Arrays.fill(figures, UNKNOWN);
     }
 
-    /**
-     * Sets the labels of the bars.
-     *
-     * @param text above them
-     * @param channels how many there are, 1 to 6: ailerons, elevator, throttle, rudder, aux 1 and 2
-     */
+    /** Sets the text above the bars, and how many of the 6 channels they show. */
     public void setTitle(String text, int channels) {
         title = text;
         shown = Math.max(1, Math.min(CHANNELS, channels));
@@ -41,12 +36,7 @@ public final class BarsView extends Instrument {
         invalidate();
     }
 
-    /**
-     * Takes a channel.
-     *
-     * @param channel 0 to 5
-     * @param pulseUs microseconds; null: not known
-     */
+    /** Takes the pulse of a channel, 0 to 5, us; null: not known. */
     public void setChannel(int channel, Double pulseUs) {
         double pulse = pulseUs == null ? Double.NaN : pulseUs;
         if (Double.compare(pulse, pulsesUs[channel]) != 0) {

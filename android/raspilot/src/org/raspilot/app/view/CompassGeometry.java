@@ -25,11 +25,8 @@ public final class CompassGeometry {
     }
 
     /**
-     * Returns the label of a mark of the scale.
-     *
-     * @param directionDeg a multiple of 15; any turn
-     * @param points the eight points from north on
-     * @return a point each 45 degrees, tens of degrees each other 30, otherwise empty
+     * Returns a point, from north on, each 45 degrees, degrees each other 30, otherwise an empty
+     * text.
      */
     public static String label(int directionDeg, String[] points) {
         int whole = ((directionDeg % 360) + 360) % 360;

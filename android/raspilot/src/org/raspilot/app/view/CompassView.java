@@ -21,7 +21,6 @@ public final class CompassView extends Instrument {
     private final String homeLetter;
     private final String[] points;
 
-    /** Creates the view from a layout. */
     public CompassView(Context context, AttributeSet attributes) {
         super(context, attributes);
         points = getResources().getStringArray(R.array.view_points);
@@ -31,12 +30,7 @@ public final class CompassView extends Instrument {
         homeLetter = context.getString(R.string.view_home_letter);
     }
 
-    /**
-     * Takes directions, degrees clockwise from north.
-     *
-     * @param heading of the nose
-     * @param home direction of home; null: unknown
-     */
+    /** Takes the directions of nose and home, degrees clockwise from north; null: unknown. */
     public void setHeading(double heading, Double home) {
         float homeNow = home == null ? Float.NaN : home.floatValue();
         if (figures != UNKNOWN && (float) heading == headingDeg

@@ -21,7 +21,6 @@ public final class FrameText extends TextView {
     private DrawnListener listener;
     private Long waiting;
 
-    /** Creates the view from a layout. */
     public FrameText(Context context, AttributeSet attributes) {
         super(context, attributes);
     }
@@ -31,12 +30,7 @@ public final class FrameText extends TextView {
         listener = newListener;
     }
 
-    /**
-     * Takes a frame.
-     *
-     * @param text to show
-     * @param beacon of the frame that the text shows, or null if it shows none
-     */
+    /** Takes a text and the beacon of the frame that it shows; null: none. */
     public void setFrame(CharSequence text, Long beacon) {
         if (!text.toString().contentEquals(getText())) {
             setText(text);

@@ -16,7 +16,6 @@ public final class Hatch extends Drawable {
     private final float step;
     private boolean isActive;
 
-    /** Creates a hatch of a colour, ARGB. */
     public Hatch(Context context, int colour) {
         float density = context.getResources().getDisplayMetrics().density;
         step = STEP_DP * density;

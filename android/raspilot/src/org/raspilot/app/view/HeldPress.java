@@ -27,7 +27,6 @@ public final class HeldPress {
     private long beganMs;
     private long lookedMs;
 
-    /** Returns what the press is now. */
     public State state() {
         return state;
     }

@@ -47,7 +47,6 @@ public final class HoldButton extends Button {
     private float downX;
     private float downY;
 
-    /** Creates the view from a layout. */
     public HoldButton(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;

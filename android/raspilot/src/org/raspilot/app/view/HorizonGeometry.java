@@ -22,23 +22,13 @@ public final class HorizonGeometry {
     private float rollDeg;
     private float pitchDeg;
 
-    /**
-     * Takes the size of the picture.
-     *
-     * @param width pixels
-     * @param height pixels
-     */
+    /** Takes the size of the picture, pixels. */
     public void resize(float width, float height) {
         radius = Math.min(width, height) * 0.42f;
         unitsPerDeg = Math.min(width, height) / 2f / VISIBLE_DEG;
     }
 
-    /**
-     * Takes an attitude.
-     *
-     * @param roll degrees, right wing down positive
-     * @param pitch degrees, nose up positive; limited to zenith and nadir
-     */
+    /** Takes an attitude, degrees: right wing down and nose up are positive. */
     public void turn(float roll, float pitch) {
         rollDeg = roll;
         pitchDeg = Math.max(-MAX_PITCH_DEG, Math.min(MAX_PITCH_DEG, pitch));
@@ -59,7 +49,6 @@ public final class HorizonGeometry {
         return radius;
     }
 
-    /** Returns how many rungs the ladder has. */
     public int rungCount() {
         return RUNGS_DEG.length;
     }
@@ -82,7 +71,6 @@ public final class HorizonGeometry {
         return RUNGS_DEG[rung] % 5 == 0 ? radius * 0.18f : radius * 0.09f;
     }
 
-    /** Returns whether a rung has a number. */
     public boolean isLabelled(int rung) {
         return RUNGS_DEG[rung] % 10 == 0;
     }

@@ -18,7 +18,6 @@ import org.raspilot.up.ground.Freshness;
  * allocates nothing: texts are created when their values change. Main thread only.
  */
 public abstract class Instrument extends View {
-    /** The text of an unknown value. */
     public static final String UNKNOWN = "--";
 
     /** For lines and areas; a drawing sets what it needs. */
@@ -34,7 +33,6 @@ public abstract class Instrument extends View {
     private String age = "";
     private final Hatch hatch;
 
-    /** Creates the view from a layout. */
     protected Instrument(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
@@ -49,12 +47,7 @@ public abstract class Instrument extends View {
         }
     }
 
-    /**
-     * Takes the age of the readings.
-     *
-     * @param now LIVE, STALE or NONE
-     * @param ageText in words; shown if the reading is stale
-     */
+    /** Takes the freshness of the readings, and their age in words. */
     public final void setFreshness(Freshness now, String ageText) {
         String shown = now == Freshness.STALE ? ageText : "";
         if (now != freshness || !shown.equals(age)) {
@@ -64,7 +57,6 @@ public abstract class Instrument extends View {
         }
     }
 
-    /** Returns the freshness of the displayed readings. */
     public final Freshness freshness() {
         return freshness;
     }
@@ -126,7 +118,6 @@ public abstract class Instrument extends View {
         }
     }
 
-    /** Returns what this instrument is called. */
     protected abstract String name();
 
     @Override

@@ -51,7 +51,6 @@ public final class InstrumentColors {
         hatch = live.hatch;
     }
 
-    /** Returns the colours of the theme that a context has. */
     public static InstrumentColors of(Context context) {
         TypedArray has = context.obtainStyledAttributes(null, R.styleable.Instrument,
                 R.attr.instrumentStyle, R.style.Instrument_Dark);
@@ -62,7 +61,6 @@ public final class InstrumentColors {
         }
     }
 
-    /** Returns the colours of stale values: greys. */
     public InstrumentColors stale() {
         return new InstrumentColors(this);
     }

@@ -5,7 +5,7 @@ package org.raspilot.app.view;
  *
  * <p>A vertical scale has greater values above, a horizontal one to the right. Only {@link
  * #firstMark()} determines the labels, and it changes only when the value has moved by a whole
- * step; in between only {@link #shift()} changes. Lengths are pixels.
+ * step. Lengths are pixels.
  */
 public final class TapeGeometry {
     private final float step;
@@ -14,24 +14,12 @@ public final class TapeGeometry {
     private long middle;
     private float shift;
 
-    /**
-     * Creates a scale.
-     *
-     * @param step distance between two marks, in the unit of the value; above 0
-     */
+    /** Takes the distance between two marks, in the unit of the value; above 0. */
     public TapeGeometry(float step) {
-        if (!(step > 0)) {
-            throw new IllegalArgumentException("a step is greater than 0, not " + step);
-        }
         this.step = step;
     }
 
-    /**
-     * Takes the length of the scale.
-     *
-     * @param length pixels
-     * @param newPixelsPerStep pixels between two marks, at least 1
-     */
+    /** Takes the length of the scale and the distance between two marks, pixels. */
     public void resize(float length, float newPixelsPerStep) {
         pixelsPerStep = Math.max(1, newPixelsPerStep);
         int half = (int) Math.ceil(length / 2 / pixelsPerStep) + 1;
@@ -58,11 +46,6 @@ public final class TapeGeometry {
     /** Returns the value of a mark, counted from the lowest one drawn. */
     public float value(int place) {
         return (firstMark() + place) * step;
-    }
-
-    /** Returns the offset of the marks from their positions at a whole step. */
-    public float shift() {
-        return shift;
     }
 
     /** Returns how far below the pointer a mark of an upright scale is. */

@@ -25,7 +25,6 @@ public final class TapeView extends Instrument {
     private float value;
     private String valueText = UNKNOWN;
 
-    /** Creates the view from a layout, with the attributes of TapeView. */
     public TapeView(Context context, AttributeSet attributes) {
         super(context, attributes);
         TypedArray has = context.obtainStyledAttributes(attributes, R.styleable.TapeView);

@@ -23,7 +23,6 @@ public final class TextViews {
         }
     }
 
-    /** Writes a colour, ARGB. */
     public static void colour(TextView view, int colour) {
         if (view.getCurrentTextColor() != colour) {
             view.setTextColor(colour);

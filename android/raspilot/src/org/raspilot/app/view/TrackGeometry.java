@@ -37,14 +37,7 @@ public final class TrackGeometry {
         isAutomatic = true;
     }
 
-    /**
-     * Shows all of a rectangle, unless the user has moved the picture.
-     *
-     * @param southM of home, as metres north: the minimum
-     * @param mostNorthM metres north of home: the maximum
-     * @param westM metres east of home: the minimum
-     * @param mostEastM metres east of home: the maximum
-     */
+    /** Shows all of a rectangle, metres from home, unless the user has moved the picture. */
     public void fit(double southM, double mostNorthM, double westM, double mostEastM) {
         if (!isAutomatic) {
             return;
@@ -65,11 +58,7 @@ public final class TrackGeometry {
     }
 
     /**
-     * Enlarges the picture around a fixed point.
-     *
-     * @param factor above 1 enlarges; no effect if not above 0 or not a number
-     * @param x of the point, pixels
-     * @param y of the point, pixels
+     * Enlarges the picture around a fixed point, pixels; no effect if the factor is not above 0.
      */
     public void zoom(double factor, float x, float y) {
         if (!(factor > 0) || Double.isInfinite(factor)) {
@@ -128,8 +117,6 @@ public final class TrackGeometry {
 
     /**
      * Returns the distance between two lines of the grid, metres: 1, 2 or 5 times a power of ten.
-     *
-     * @param leastPx how many pixels must at least lie between two lines
      */
     public double gridStepM(float leastPx) {
         double leastM = Math.max(1e-3, leastPx / pixelsPerM);

@@ -53,7 +53,6 @@ public final class TrackView extends Instrument {
     private double stepM;
     private String stepText = "";
 
-    /** Creates the view from a layout. */
     public TrackView(Context context, AttributeSet attributes) {
         super(context, attributes);
         pinch = new ScaleGestureDetector(context, new Pinch());
@@ -68,12 +67,8 @@ public final class TrackView extends Instrument {
     }
 
     /**
-     * Takes the track, the oldest point first; the arrays are kept and not changed.
-     *
-     * @param north metres of each point
-     * @param east metres of each point
-     * @param hasGapBefore true: a gap precedes the point, no line leads to it
-     * @param isHome whether 0 north, 0 east is home; otherwise it is the first known position
+     * Takes metres from the origin, the oldest point first; a gap has no line to the point after
+     * it.
      */
     public void setTrack(float[] north, float[] east, boolean[] hasGapBefore, boolean isHome) {
         isOriginHome = isHome;
@@ -87,13 +82,7 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /**
-     * Takes the aircraft's position.
-     *
-     * @param north metres; null: unknown
-     * @param east metres; null: unknown
-     * @param heading degrees clockwise from north; null: unknown, a ring is drawn
-     */
+    /** Takes the aircraft's position, metres, and its heading, degrees; null: unknown. */
     public void setAircraft(Double north, Double east, Double heading) {
         aircraftNorthM = north == null || east == null ? Double.NaN : north;
         aircraftEastM = north == null || east == null ? Double.NaN : east;
@@ -101,13 +90,7 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /**
-     * Takes the target of the flight mode.
-     *
-     * @param north metres; null: none
-     * @param east metres; null: none
-     * @param radius of the circle around it, metres; null: none
-     */
+    /** Takes the target of the flight mode and the circle around it, metres; null: none. */
     public void setTarget(Double north, Double east, Double radius) {
         targetNorthM = north == null || east == null ? Double.NaN : north;
         targetEastM = north == null || east == null ? Double.NaN : east;

@@ -75,9 +75,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
     @Override
     public void onTelemetry(Telemetry telemetry) {
-        if (telemetry.beacon != null) {
-            ground.onShown(telemetry.beacon);
-        }
+        // A handler of the Command prints it.
     }
 
     @Override
@@ -94,7 +92,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         event.put("tls", status.isTls);
         event.put("code", status.code);
         event.put("key_fault", status.keyFault);
-        event.put("refused", status.counters.refused);
+        event.put("refused", status.refused);
         event.put("tune_in_flight", status.tuneInFlight);
         event.put("reason", status.reason);
         event.put("rejection", status.rejection);
@@ -125,7 +123,8 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         if (!(name instanceof String) || !(data instanceof Map)) {
             throw new OptionException("send is a Command's name, data an object");
         }
-        ground.send(new BaseCommand((String) name, keyed(data)), answers);
+        ground.send(new BaseCommand((String) name, keyed(data)),
+                ground.telemetry().beacon, answers);
     }
 
     private void gains(Object wanted, Answers answers) throws OptionException {
@@ -173,7 +172,6 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         return value == null ? null : Long.valueOf(value);
     }
 
-    /** Prints an answer with the tag of its request. */
     private final class Answers implements AnswerListener {
         private final Object tag;
 

@@ -19,21 +19,14 @@ final class EventWriter {
         this.out = new BufferedOutputStream(out, 16384);
     }
 
-    /** Starts an event of that name; more fields may be put into it. */
-    static Map<String, Object> event(String name) {
+    /** Starts an event; more fields may be put into it. */
+    static Map<String, Object> event(String name, String field, Object value) {
         Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("event", name);
-        return fields;
-    }
-
-    /** Returns an event with one field. */
-    static Map<String, Object> event(String name, String field, Object value) {
-        Map<String, Object> fields = event(name);
         fields.put(field, value);
         return fields;
     }
 
-    /** Prints it immediately. */
     synchronized void write(Map<String, Object> fields) {
         try {
             out.write(Json.write(fields).getBytes(ASCII));
@@ -51,7 +44,6 @@ final class EventWriter {
         write(event);
     }
 
-    /** Prints an unexpected exception. */
     void fault(Throwable fault) {
         StackTraceElement[] trace = fault.getStackTrace();
         notice("fault", "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : ""));

@@ -36,7 +36,6 @@ final class LoopProgram implements FaultListener {
         void stop();
     }
 
-    /** Creates a loop of that name. */
     LoopProgram(String name, EventWriter words) {
         this.words = words;
         loop = new SelectorLoop(name, this);

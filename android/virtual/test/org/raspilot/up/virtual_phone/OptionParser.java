@@ -30,7 +30,6 @@ final class OptionParser {
         return found;
     }
 
-    /** Returns the value that follows an option. */
     static String value(String name, Iterator<String> words) throws OptionException {
         if (!words.hasNext()) {
             throw new OptionException(
@@ -44,7 +43,6 @@ final class OptionParser {
         return number(name + ": a port", value, 1, 65535);
     }
 
-    /** Returns a whole number in its range. */
     static int number(String what, String value, int least, int most) throws OptionException {
         try {
             int found = Integer.parseInt(value);

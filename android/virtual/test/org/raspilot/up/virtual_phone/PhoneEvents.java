@@ -11,7 +11,6 @@ import org.raspilot.up.net.Endpoint;
 final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     private final EventWriter words;
 
-    /** Prints events through {@code words}. */
     PhoneEvents(EventWriter words) {
         this.words = words;
     }

@@ -17,36 +17,27 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  * --orientation off|tcp|udp}, {@code --orientation-hz N}.
  */
 final class PhoneOptions {
-    /** How the airborne side is to be. */
-    final AirborneSettings settings;
-
-    private PhoneOptions(AirborneSettings settings) {
-        this.settings = settings;
+    private PhoneOptions() {
     }
 
     /** Returns the options; raises OptionException with a sentence for a wrong one. */
-    static PhoneOptions read(String[] arguments) throws OptionException {
+    static AirborneSettings read(String[] arguments) throws OptionException {
         AirborneSettings.Builder settings = new AirborneSettings.Builder()
                 .host("127.0.0.1").aircraft("default").orientation(OrientationTransport.OFF);
         String way = "";
         Iterator<String> words = Arrays.asList(arguments).iterator();
         while (words.hasNext()) {
             String name = words.next();
-            switch (name) {
-                case "--discover":
-                case "--runner":
-                    if (!way.isEmpty() && !way.equals(name)) {
-                        throw new OptionException(way + " and " + name + " exclude each other");
-                    }
-                    way = name;
-                    read(settings, name, OptionParser.value(name, words));
-                    break;
-                default:
-                    read(settings, name, OptionParser.value(name, words));
+            if (name.equals("--discover") || name.equals("--runner")) {
+                if (!way.isEmpty() && !way.equals(name)) {
+                    throw new OptionException(way + " and " + name + " exclude each other");
+                }
+                way = name;
             }
+            read(settings, name, OptionParser.value(name, words));
         }
         try {
-            return new PhoneOptions(settings.build());
+            return settings.build();
         } catch (IllegalArgumentException error) {
             throw new OptionException(error.getMessage());
         }

@@ -1,6 +1,7 @@
 package org.raspilot.up.virtual_phone;
 
 import java.io.IOException;
+import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /**
@@ -39,15 +40,15 @@ public final class VirtualPhone {
 
     /** Runs until standard input ends; exit status 2 for wrong options. */
     public static void main(String[] arguments) throws IOException {
-        PhoneOptions options;
+        AirborneSettings settings;
         try {
-            options = PhoneOptions.read(arguments);
+            settings = PhoneOptions.read(arguments);
         } catch (OptionException error) {
             System.err.println("virtual phone: " + error.getMessage());
             System.exit(WRONG_INPUT);
             return;
         }
         EventWriter words = new EventWriter(System.out);
-        new LoopProgram("virtual phone", words).run(System.in, new PhoneSide(options, words));
+        new LoopProgram("virtual phone", words).run(System.in, new PhoneSide(settings, words));
     }
 }

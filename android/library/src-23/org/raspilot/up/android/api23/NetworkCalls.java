@@ -16,11 +16,8 @@ public final class NetworkCalls {
     }
 
     /**
-     * Starts to monitor.
-     *
-     * @param changed called on a thread of the system for each network that appeared, changed or
-     *     disappeared
-     * @return stops it, on any thread; null: the system knows no networks
+     * Calls {@code changed} on a thread of the system for each network that appeared, changed or
+     * disappeared; returns what stops it, null: the system knows no networks.
      */
     public static Runnable begin(Context context, Runnable changed) {
         final ConnectivityManager manager = manager(context);
@@ -35,10 +32,8 @@ public final class NetworkCalls {
     }
 
     /**
-     * Binds the process's future sockets to a Wi-Fi.
-     *
-     * @param address numeric, the Wi-Fi's network must contain it; null: any Wi-Fi
-     * @return whether there is such a Wi-Fi
+     * Binds the process's future sockets to a Wi-Fi whose network contains an address, null: to
+     * any; returns whether there is one.
      */
     public static boolean bindToWifi(Context context, String address) {
         ConnectivityManager manager = manager(context);

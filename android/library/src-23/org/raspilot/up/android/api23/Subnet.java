@@ -7,11 +7,7 @@ public final class Subnet {
     private Subnet() {
     }
 
-    /**
-     * Returns whether both addresses lie in the same network.
-     *
-     * @param prefixBits length of the network prefix
-     */
+    /** Returns whether both addresses lie in the same network of that prefix. */
     public static boolean holds(byte[] one, int prefixBits, byte[] other) {
         if (one.length != other.length || prefixBits <= 0 || prefixBits > one.length * BITS) {
             return false;
