@@ -148,6 +148,8 @@ public final class KeySettingsTest extends AppBench {
         assertThrows(IllegalArgumentException.class, () -> ground());
         handset.ground().reload();
         mustSay("glider-1", handset.ground().fault());
+        handset.choose(Screen.GROUND);
+        mustSay("glider-1", text(R.id.control_link));
         file().edit().putString("glider-1", "keystore AAAA").commit();
         assertThrows(IllegalArgumentException.class, () -> ground());
         String other = TEXT.replace("glider-1", "glider-2");

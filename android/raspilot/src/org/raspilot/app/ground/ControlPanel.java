@@ -38,7 +38,9 @@ public final class ControlPanel {
     public void update(GroundSnapshot picture) {
         GroundStatus status = picture.status;
         if (status == null) {
-            TextViews.show(link, link.getResources().getString(R.string.control_no_service));
+            String fault = ground == null ? "" : sentence(ground.fault());
+            TextViews.show(link, fault.isEmpty()
+                    ? link.getResources().getString(R.string.control_no_service) : fault);
             TextViews.show(seat, "");
             take.setEnabled(false);
             give.setVisibility(View.GONE);
