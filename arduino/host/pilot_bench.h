@@ -115,17 +115,17 @@ class PilotBench {
   }
   Reason output(uint16_t ailerons, uint16_t throttle, uint32_t age_us = 20000) {
     const uint16_t pulses[OUTPUTS] = {ailerons, 1500, throttle, 1500};
-    return authority.accept_outputs(pulses, age_us, clock_us());
+    return authority.accept_outputs(pulses, age_us);
   }
   Reason demand(int16_t roll_cdeg, uint16_t throttle, uint16_t lifetime_ms = 250) {
-    return authority.accept_setpoint(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms, clock_us());
+    return authority.accept_setpoint(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms);
   }
   Reason return_by(int16_t roll_cdeg, uint16_t throttle, uint16_t lifetime_ms = 250) {
-    return authority.accept_return(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms, clock_us());
+    return authority.accept_return(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms);
   }
-  Reason ask(char letter) { return authority.request_mode(letter, clock_us()); }
-  Reason arm() { return authority.arm(clock_us()); }
-  Reason disarm() { return authority.disarm(clock_us()); }
+  Reason ask(char letter) { return authority.request_mode(letter); }
+  Reason arm() { return authority.arm(); }
+  Reason disarm() { return authority.disarm(); }
 
   Calibration calibration;
   Profile profile;

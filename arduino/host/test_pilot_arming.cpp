@@ -96,7 +96,7 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not 
     bit = VETO_PROFILE_INVALID;
   }
   SUBCASE("the Raspberry Pi's") {
-    bench.on_slot = [&] { bench.authority.accept_veto(true, bench.clock_us()); };
+    bench.on_slot = [&] { bench.authority.accept_veto(true); };
     bit = VETO_RASPBERRY_PI;
   }
   raise_aux2(bench, 500);
@@ -105,7 +105,7 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not 
   CHECK(bench.arm() != Reason::NONE);
   CHECK_FALSE(bench.authority.is_armed());
   bench.on_slot = nullptr;
-  bench.authority.accept_veto(false, bench.clock_us());
+  bench.authority.accept_veto(false);
   bench.sticks[THROTTLE] = 1000;
   bench.is_imu_valid = true;
   bench.is_calibrating = bench.is_profile_broken = false;
@@ -173,7 +173,7 @@ TEST_CASE("pilot arming: the Raspberry Pi's veto ends after a second without ano
   PilotBench bench;
   bench.sticks[AUX2] = 2000;
   bench.run(1000);
-  bench.authority.accept_veto(true, bench.clock_us());
+  bench.authority.accept_veto(true);
   bench.run(990);
   CHECK(vetoes(bench) == VETO_RASPBERRY_PI);
   CHECK(bench.arm() == Reason::VETO);
@@ -272,7 +272,7 @@ TEST_CASE("pilot arming: neither a lost IMU, a lost receiver nor a veto disarms"
   }
   SUBCASE("vetoes") {
     bench.is_calibrating = bench.is_profile_broken = true;
-    bench.on_slot = [&] { bench.authority.accept_veto(true, bench.clock_us()); };
+    bench.on_slot = [&] { bench.authority.accept_veto(true); };
   }
   bench.run(10000);
   CHECK(bench.authority.is_armed());

@@ -153,7 +153,7 @@ TEST_CASE("pilot failsafe: after more than 5 s the throttle waits for a low stic
   fly(bench, 1500);
   bench.is_on = false;
   bench.run(5300);
-  CHECK(bench.authority.is_throttle_latched());
+  CHECK(bench.authority.state().is_throttle_latched);
   bench.is_on = true;
   bench.run(500);
   CHECK_FALSE(bench.authority.is_failsafe());
@@ -170,7 +170,7 @@ TEST_CASE("pilot failsafe: after more than 5 s the throttle waits for a low stic
   CHECK(bench.throttle_us() == 1250);
   bench.sticks[THROTTLE] = 1000;
   bench.run(60);
-  CHECK_FALSE(bench.authority.is_throttle_latched());
+  CHECK_FALSE(bench.authority.state().is_throttle_latched);
   CHECK(bench.throttle_us() == 1000);
   bench.sticks[THROTTLE] = 1500;
   bench.run(60);
@@ -182,7 +182,7 @@ TEST_CASE("pilot failsafe: after less than 5 s the throttle returns to the stick
   fly(bench, 1500);
   bench.is_on = false;
   bench.run(4800);
-  CHECK_FALSE(bench.authority.is_throttle_latched());
+  CHECK_FALSE(bench.authority.state().is_throttle_latched);
   bench.is_on = true;
   bench.run(60);
   CHECK(bench.throttle_us() == 1600);
@@ -193,7 +193,7 @@ TEST_CASE("pilot failsafe: its own failsafe latches the throttle too") {
   fly(bench, 1500);
   bench.sticks[THROTTLE] = 890;
   bench.run(5200);
-  CHECK(bench.authority.is_throttle_latched());
+  CHECK(bench.authority.state().is_throttle_latched);
   bench.sticks[THROTTLE] = 1600;
   bench.run(100);
   CHECK(bench.throttle_us() == 1250);
@@ -229,7 +229,7 @@ TEST_CASE("pilot failsafe: before the first valid receiver no failsafe: level, w
     bench.run(10000);
     CHECK_FALSE(bench.authority.is_failsafe());
     CHECK_FALSE(bench.authority.is_armed());
-    CHECK_FALSE(bench.authority.is_throttle_latched());
+    CHECK_FALSE(bench.authority.state().is_throttle_latched);
     CHECK(bench.authority.switch_position() == SWITCH_UNKNOWN);
     CHECK_FALSE(bench.authority.is_auto());
     CHECK(bench.authority.mode() == Mode::FBW);

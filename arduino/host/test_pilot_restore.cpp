@@ -53,7 +53,7 @@ TEST_CASE("pilot restore: the ground's requested mode, failsafe and latch are re
     PilotBench bench;
     restart(bench, before);
     CHECK(bench.authority.is_failsafe());
-    CHECK(bench.authority.is_throttle_latched());
+    CHECK(bench.authority.state().is_throttle_latched);
     CHECK(bench.throttle_us() == 1250);
     bench.sticks[THROTTLE] = 1600;
     bench.run(60);
@@ -146,7 +146,7 @@ TEST_CASE("pilot: whatever happens, the rules hold") {
       if (dice == 9) bench.is_on = !bench.is_on;
       if (dice == 10) bench.is_imu_valid = !bench.is_imu_valid;
       if (dice == 11) bench.is_calibrating = !bench.is_calibrating;
-      if (dice == 12) bench.authority.accept_veto(random() & 1, bench.clock_us());
+      if (dice == 12) bench.authority.accept_veto(random() & 1);
       if (dice == 13) bench.is_on = bench.is_imu_valid = !(bench.is_calibrating = false);
       if (dice == 14) bench.sticks[THROTTLE] = 1000;
       const uint8_t vetoes_before = bench.authority.vetoes();

@@ -176,7 +176,7 @@ TEST_CASE("pilot switch: outside AUTO Authority ignores a lost Raspberry Pi") {
   PilotBench bench;
   bench.fly(1500);
   bench.sticks[THROTTLE] = 1600;
-  bench.authority.accept_veto(true, bench.clock_us());
+  bench.authority.accept_veto(true);
   bench.run(5000);
   CHECK(bench.authority.mode() == Mode::FBW);
   CHECK(bench.authority.is_armed());
