@@ -137,11 +137,6 @@ class Imu:
         """Return how many starts the bus has seen."""
         return int(self._library.rig_imu_transfers(self._handle))
 
-    @property
-    def bus_bytes(self) -> int:
-        """Return how many bytes went over the bus, addresses included."""
-        return int(self._library.rig_twi_bytes(self._handle))
-
     def raise_failure(self) -> None:
         """Raise the exception of the motion's function in the last run."""
         if self._failure is not None:

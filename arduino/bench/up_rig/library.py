@@ -169,7 +169,6 @@ def _declare(library: ctypes.CDLL) -> None:
     declare("imu_fault_now", u8, rig)
     declare("imu_samples", u64, rig)
     declare("imu_transfers", u64, rig)
-    declare("twi_bytes", u64, rig)
     declare("eeprom", ctypes.POINTER(u8), rig)
     declare("eeprom_writes", u64, rig)
     declare("eeprom_is_writing", ctypes.c_bool, rig)
