@@ -47,14 +47,12 @@ class Instance:
         self.phone: bool | None = None
         self.armed: bool | None = None
         self.last_end: Problem | None = None
-        self.rejected = 0
-        """Notifications from another process than the instance's."""
         self._clock = clock
         self._policy = policy
         self._host = host
         self._is_kept = keep
         self._log = Logger(namespace=f"runner.{self.name}")
-        self._backoff = Backoff(policy.restarts)
+        self._backoff = Backoff(policy.restarts, gives_up=not policy.always_restart)
         self._child: Process | None = None
         self._listener: NotifyListener | None = None
         self._is_ready = False
@@ -136,7 +134,6 @@ class Instance:
 
     def on_notification(self, pid: int, notification: Notification) -> None:
         if self._child is None or pid != self._child.pid:
-            self.rejected += 1
             return
         before = (self.ports, self.phone, self.armed)
         if notification.ports is not None:
@@ -341,11 +338,9 @@ class Instance:
         self.ports = self.phone = None
         self._timer = self._clock.callLater(self._restart_delay_s, self._feed, Input.START)
 
-    def _close_child(self) -> None:
+    def _leave(self) -> None:
         if self._child is not None:
             self._child.close()
-
-    def _leave_listener(self) -> None:
         if self._listener is not None:
             self._listener.close(remove=False)
 

@@ -34,8 +34,8 @@ class Instances:
         *,
         limit: int,
         kept: int,
-        starts: KeyStarts | None = None,
-        on_change: Callable[[], None] = lambda: None,
+        starts: KeyStarts,
+        on_change: Callable[[], None],
     ) -> None:
         self._host = host
         self._policy = policy
@@ -94,7 +94,7 @@ class Instances:
             return Response(name, error=Problem("instance_limit", text))
         if (error := self._recent_failure(request)) is not None:
             return Response(name, error=error)
-        if self._starts is not None and request.key:
+        if request.key:
             running = sum(each.request.key == request.key for each in self._instances.values())
             if (error := self._starts.count(request.key, running)) is not None:
                 return Response(name, error=error)

@@ -41,8 +41,8 @@ class Paths:
             else None,
             # Not resolved: the symbolic link is what makes it a virtual environment's interpreter.
             python=Path(config.python or sys.executable).absolute(),
-            base=_in(config_folder, config.instance_config, "blackbox" if black_box else "."),
-            profiles=_in(config_folder, config.profiles_folder, "profiles"),
+            base=config_folder / (config.instance_config or ("blackbox" if black_box else ".")),
+            profiles=config_folder / (config.profiles_folder or "profiles"),
             run=run,
             instances=Path(config.instances_folder or _first(environ, "STATE_DIRECTORY") or run),
             logs=Path(config.logs_folder or _first(environ, "LOGS_DIRECTORY") or run / ".logs"),
@@ -54,10 +54,6 @@ def own_root() -> Path:
     spec = importlib.util.find_spec("raspilot")
     tree = Path(spec.origin).resolve().parents[1] if spec and spec.origin else Path.cwd()
     return tree if (tree / "main.py").is_file() else Path.cwd()
-
-
-def _in(folder: Path, wanted: str, default: str) -> Path:
-    return folder / (wanted or default)
 
 
 def _first(environ: Mapping[str, str], variable: str) -> str:

@@ -28,18 +28,17 @@ from up.tls.protocol import TLSServerFactory
 from up_cluster.config import ClusterError
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
-from up_runner.instance_host import Application, InstanceHost
+from up_runner.instance_host import InstanceHost
 from up_runner.instances import STOPPING, Instances
 from up_runner.key_starts import KeyStarts
-from up_runner.log_keeper import LogKeeper
 from up_runner.metrics import figures_of
 from up_runner.paths import Paths
-from up_runner.policy import Policy, RestartPolicy
+from up_runner.policy import Policy
 from up_runner.request import Request
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Problem, Response
-from up_runner.run_folder import RunFolder, RunFolderError
+from up_runner.run_folder import CannotStart, RunFolder
 
 if TYPE_CHECKING:
     from up_runner.pool.pool import Pool
@@ -48,14 +47,6 @@ KILL_DELAY_S = 5.0
 LISTEN_BACKLOG = 1024
 """With a short one a burst of connections delays a phone's by the kernel's repetition of 1 s."""
 _SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
-
-
-class CannotStart(Exception):  # noqa: N818 - the text is the message
-    """The runner cannot start: a code and one sentence."""
-
-    def __init__(self, code: str, text: str) -> None:
-        super().__init__(text)
-        self.code = code
 
 
 class Runner:
@@ -114,32 +105,14 @@ class Runner:
         self._read_keys()
         self._check()
         factory = self._factory()
-        try:
-            self._run_folder.take()
-        except RunFolderError as error:
-            raise CannotStart(error.code, str(error)) from None
+        self._run_folder.take()
         try:
             if self._config.pool.servers:
                 self._pool = self._new_pool()
+            self._open(factory)
         except CannotStart:
             self._run_folder.release()
             raise
-        try:
-            self._port = self._reactor.listenTCP(
-                self._config.port,
-                factory,
-                backlog=LISTEN_BACKLOG,
-                interface=self._config.address,
-            )
-        except CannotListenError as error:
-            self._run_folder.release()
-            raise CannotStart(
-                "cannot_listen",
-                f"cannot listen on port {self._config.port}: {error.socketError}; "
-                "set another port in runner.yml or with --port",
-            ) from None
-        if self._config.metrics_port is not None:
-            self._open_metrics(self._config.metrics_port)
         self.instances.open()
         if self._pool is not None:
             self._pool.start()
@@ -170,6 +143,19 @@ class Runner:
         self._keys.stop()
         self._run_folder.release()
 
+    def _open(self, factory: ServerFactory) -> None:
+        port, address = self._config.port, self._config.address
+        try:
+            self._port = self._reactor.listenTCP(port, factory, LISTEN_BACKLOG, address)
+        except CannotListenError as error:
+            raise CannotStart(
+                "cannot_listen",
+                f"cannot listen on port {port}: {error.socketError}; "
+                "set another port in runner.yml or with --port",
+            ) from None
+        if self._config.metrics_port is not None:
+            self._open_metrics(self._config.metrics_port)
+
     def _open_metrics(self, port: int) -> None:
         def page() -> str:
             pool = () if self._pool is None else self._pool.figures()
@@ -179,7 +165,6 @@ class Runner:
             self._metrics_port = serve_metrics(self._reactor, port, page, self._unready_code)
         except CannotListenError as error:
             self._port.stopListening()
-            self._run_folder.release()
             text = f"cannot listen on port {port}: {error.socketError}; set another metrics port"
             raise CannotStart("cannot_listen", text) from None
         port = self._metrics_port.getHost().port
@@ -222,9 +207,6 @@ class Runner:
     def _host(self, environ: Mapping[str, str]) -> InstanceHost:
         config, paths = self._config, self._paths
         black_box = config.mode == "black box"
-        application = Application(
-            paths.python, paths.script, paths.root, config.mode, config.watchdog_s or None
-        )
         instance_config = InstanceConfig(
             paths.base,
             paths.profiles,
@@ -235,19 +217,13 @@ class Runner:
             self._proxy_settings(),
             self._config_folder / KEYS.filename,
         )
-        logs = LogKeeper(paths.logs, config.logs.size, config.logs.keep)
+        inherited = {
+            name: value
+            for name, value in environ.items()
+            if any(fnmatchcase(name, pattern) for pattern in config.environment)
+        }
         return InstanceHost(
-            self._reactor,
-            application,
-            self._run_folder,
-            paths.instances,
-            instance_config,
-            logs,
-            {
-                name: value
-                for name, value in environ.items()
-                if any(fnmatchcase(name, pattern) for pattern in config.environment)
-            },
+            self._reactor, config, paths, self._run_folder, instance_config, inherited
         )
 
     def _proxy_settings(self) -> Mapping[str, Mapping[str, Any]]:
@@ -315,9 +291,7 @@ class Runner:
             problem = Problem("no_runner", f"this host lacks the labels {', '.join(missing)}")
             return succeed(Response(request.aircraft, error=problem))
         if request.action == "status":
-            response: Deferred[Response] = Deferred()
-            response.callback(self.instances.status(request.aircraft))
-            return response
+            return succeed(self.instances.status(request.aircraft))
         return Deferred.fromCoroutine(self.instances.spawn(request))
 
     def _encode(self, response: Response, host: str) -> bytes:
@@ -339,7 +313,7 @@ def policy_of(config: RunnerConfig) -> Policy:
     Only a black box stops with its phone or after failures: the others may be in flight.
     """
     black_box = config.mode == "black box"
-    restarts, pool = config.restarts, config.pool
+    pool = config.pool
     exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
     sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
     return Policy(
@@ -347,12 +321,7 @@ def policy_of(config: RunnerConfig) -> Policy:
         watchdog_s=config.watchdog_s or None,
         exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
         kill_delay_s=KILL_DELAY_S,
-        restarts=RestartPolicy(
-            restarts.delay_s,
-            restarts.max_delay_s,
-            restarts.limit if black_box else None,
-            restarts.period_s,
-        ),
+        restarts=config.restarts,
         always_restart=not black_box,
         # Without this port no phone can reach it.
         needed_ports=("general",) if black_box else (),

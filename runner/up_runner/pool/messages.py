@@ -1,29 +1,13 @@
-"""What the runners of a pool send each other about a phone's request, as JSON."""
+"""What a runner of a pool answers another one about a phone's request, as JSON."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
-from up_runner.request import MalformedRequest, Request, parse
 from up_runner.response import Problem, Response
 
 ELSEWHERE, NO_ANSWER = "elsewhere", "no_answer"
-
-
-def encode_request(request: Request) -> dict[str, Any]:
-    """Return the fields of a request, with the id of the key that signed it."""
-    return {"request": request.as_json(), "key": request.key}
-
-
-def decode_request(fields: Mapping[str, Any]) -> Request:
-    """Raises MalformedRequest."""
-    if not isinstance(fields.get("request"), dict):
-        raise MalformedRequest("the request is missing")
-    request = parse(json.dumps(fields["request"]).encode())
-    return replace(request, key=str(fields.get("key", "")))
 
 
 def encode_response(response: Response) -> dict[str, Any]:

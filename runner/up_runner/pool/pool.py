@@ -30,16 +30,14 @@ from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
 from up_runner.pool.messages import (
     ELSEWHERE,
     NO_ANSWER,
-    decode_request,
     decode_response,
-    encode_request,
     encode_response,
     failed,
 )
 from up_runner.pool.orphans import Orphans
 from up_runner.pool.placement import HEARTBEAT_S, RunnerInfo, ranking
 from up_runner.pool.state_files import Store
-from up_runner.request import MalformedRequest, Request
+from up_runner.request import MalformedRequest, Request, decode_request, encode_request
 from up_runner.response import Response
 
 STORE = "up-state"

@@ -6,13 +6,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from up_runner.pool.messages import (
-    decode_request,
-    decode_response,
-    encode_request,
-    encode_response,
-)
-from up_runner.request import MalformedRequest, Request
+from up_runner.pool.messages import decode_response, encode_response
+from up_runner.request import MalformedRequest, Request, decode_request, encode_request
 from up_runner.response import Problem, Response
 
 JSON = st.recursive(
