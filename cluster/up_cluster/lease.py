@@ -197,11 +197,11 @@ class LeaseStore:
                 lease.revision = await self._put(lease.key, data, lease.fence, lease.revision)
             except WrongRevisionError:
                 entry = await self._bucket.get(lease.key)
-                record = self._record(entry)
+                record = None if entry is None else parse_record(entry)
                 if entry is None or entry.is_deleted:
                     # It expired. The next holder, this node, gets a new number.
                     lease.fence, lease.revision = 0, 0 if entry is None else entry.revision
-                elif record is not None:
+                elif record is not None and record.node != self._node:
                     self._set_state(lease, LeaseState.LOST)
                     raise LeaseLostError(lease.key) from None
                 else:
@@ -250,11 +250,6 @@ class LeaseStore:
     async def _put(self, key: str, data: dict[str, Any], fence: int, expected: int) -> int:
         value = json.dumps({"node": self._node, "fence": fence, "data": data})
         return await self._bucket.put(key, value.encode(), expected=expected, ttl_s=self._ttl_s)
-
-    def _record(self, entry: Entry | None) -> Record | None:
-        """Return the record of another node; None if the key is free, or this node's."""
-        record = None if entry is None else parse_record(entry)
-        return None if record is None or record.node == self._node else record
 
 
 def parse_record(entry: Entry) -> Record | None:

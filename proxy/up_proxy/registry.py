@@ -40,13 +40,13 @@ class AircraftRegistry:
         poller: Poller,
         max_aircraft: int,
         max_listeners: int,
-        make: Callable[[str, Poller, Limited], AircraftSession] = AircraftSession,
+        make: Callable[[str, Poller, Limited], AircraftSession],
     ) -> None:
         self._poller = poller
         self._log = Limited(clock, LOG_INTERVAL_S, MAX_LOG_KEYS)
         self._make = make
         self._max_aircraft = max_aircraft
-        self._max_listeners = max_listeners
+        self.max_listeners = max_listeners
         self._sessions: dict[str, AircraftSession] = {}
         self._gone = Totals()
 
@@ -57,7 +57,6 @@ class AircraftRegistry:
         return list(self._sessions.values())
 
     def totals(self) -> Totals:
-        """Return the sums over all aircraft since the start."""
         totals = Totals()
         totals.add(self._gone)
         for session in self._sessions.values():
@@ -83,7 +82,7 @@ class AircraftRegistry:
         """
         lease = session.grounds.lease
         listeners = len(session.grounds.connections) - (lease.owner is not None)
-        if listeners >= self._max_listeners and not (
+        if listeners >= self.max_listeners and not (
             lease.is_free(self._poller.now_s) or lease.is_resumed_by(token)
         ):
             raise HelloError(FULL, "too many grounds for this aircraft")

@@ -1,7 +1,7 @@
 """This proxy as a node of a cluster: its NATS client, its leases, its heartbeat."""
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +27,7 @@ from up_proxy.cluster.node_messages import (
 from up_proxy.cluster.poller_reactor import PollerReactor
 from up_proxy.cluster.sender_ages import SenderAges
 from up_proxy.cluster.session import ClusterSession
-from up_proxy.metrics import Metric, Samples
+from up_proxy.metrics import Metric, Row, Samples, named, one
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
 from up_proxy.tenant_quota import TenantQuota
@@ -49,12 +49,10 @@ class ClusterNode:
         poller: Poller,
         config: ClusterConfig,
         folder: Path,
-        max_listeners: int,
         quota: TenantQuota,
     ) -> None:
         self._reactor = reactor
         self._poller = poller
-        self._max_listeners = max_listeners
         self.quota = quota
         self._sessions: set[ClusterSession] = set()
         self._member = Membership(
@@ -83,7 +81,6 @@ class ClusterNode:
 
     @property
     def is_ready(self) -> bool:
-        """Return whether leases can be had."""
         return self._member.is_ready
 
     def start(self) -> None:
@@ -115,13 +112,12 @@ class ClusterNode:
         self._sessions.discard(session)
 
     def new_handshake(self, side: Side, registry: AircraftRegistry) -> ClusterHandshake:
-        return ClusterHandshake(side, registry, self._poller, self.quota, self._max_listeners)
+        return ClusterHandshake(side, registry, self._poller, self.quota)
 
     def subject(self, aircraft: str) -> str:
         return self._member.subject(word(aircraft))
 
     def key(self, aircraft: str) -> str:
-        """Return the key of an aircraft's lease."""
         return self._member.key("aircraft", aircraft)
 
     def send(self, subject: str, fence: int, ground: int, body: bytes) -> None:
@@ -157,28 +153,22 @@ class ClusterNode:
         self._releases.add(done)
         done.addBoth(lambda _: self._releases.discard(done))
 
-    def metrics(self) -> list[Metric]:
-        def one(value: float) -> Samples:
-            return [({}, value)]
-
+    def metrics(self) -> Iterator[Metric]:
         refused: Samples = [({"code": code}, count) for code, count in self.refused.items()]
-        counters: list[tuple[str, str, Samples]] = [
+        counters: list[Row] = [
             ("stale", "Messages of other nodes dropped as old or overtaken.", one(self.stale)),
             ("fenced", "Messages of a former home or to another one.", one(self.fenced)),
             ("malformed", "Malformed messages of other nodes.", one(self._malformed)),
             ("dropped", "Messages to NATS that were dropped.", one(self._client.dropped)),
             ("refused", "Changes of control that were not granted, by code.", refused),
         ]
-        gauges: list[tuple[str, str, Samples]] = [
+        gauges: list[Row] = [
             ("connected", "1 while NATS is connected.", one(int(self._client.is_connected))),
             ("nodes", "Other nodes heard within two minutes.", one(len(self._ages))),
             ("leases", "Aircraft whose home is this node.", one(len(self.leases))),
             ("draining", "1 after a drain.", one(int(self._fleet.is_draining))),
         ]
-        return [
-            *((f"up_proxy_cluster_{n}_total", "counter", text, v) for n, text, v in counters),
-            *((f"up_proxy_cluster_{n}", "gauge", text, v) for n, text, v in gauges),
-        ]
+        return named("up_proxy_cluster", counters, gauges)
 
     def _is_stale(self, envelope: Envelope) -> bool:
         now_s = self._reactor.seconds()

@@ -108,12 +108,12 @@ class Pool:
             from up_cluster.s3_store import S3Store, S3Threads
         except ImportError:
             reason = "s3_bucket needs the Python package boto3: pip install 'raspilot[s3]'"
-            raise ClusterError("no_boto3", reason) from None
+            raise ClusterError(reason, "no_boto3") from None
         path = folder / pool.s3_credentials
         text = read_secret(path) if pool.s3_credentials else ""
         key, _, secret = text.partition(":")
         if text and not (key and secret):
-            raise ClusterError("cluster_credentials", f"{path} must be KEY:SECRET")
+            raise ClusterError(f"{path} must be KEY:SECRET", "cluster_credentials")
         try:
             store = S3Store(
                 S3Threads(self._reactor),
@@ -124,7 +124,7 @@ class Pool:
                 secret=secret,
             )
         except RefusedError as error:
-            raise ClusterError("s3_refused", str(error)) from None
+            raise ClusterError(str(error), "s3_refused") from None
         makers.append(lambda _: store.create(pool.tenant))
         return store
 

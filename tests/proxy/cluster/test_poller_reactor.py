@@ -20,7 +20,7 @@ def test_a_server_that_does_not_read_gets_all_later_and_in_order():
 
 
 async def written_to_a_slow_peer():
-    poller = Poller(reactor)
+    poller = Poller(reactor, reactor.seconds)
     poller.start()
     own = PollerReactor(reactor, poller)
     with socket.create_server(("127.0.0.1", 0)) as server:
