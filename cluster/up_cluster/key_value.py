@@ -132,7 +132,6 @@ class KeyValueBucket:
         return subject[len(self._subject("")) :]
 
     async def consume(self, config: dict[str, Any]) -> dict[str, Any]:
-        """Make an ephemeral consumer of the stream."""
         body = {"stream_name": self._stream, "config": config}
         return await api(self._client, f"CONSUMER.CREATE.{self._stream}", body)
 

@@ -120,11 +120,6 @@ class NatsClient:
     def is_connected(self) -> bool:
         return self._link is not None
 
-    @property
-    def server(self) -> str:
-        """The name of the connected server; empty without one."""
-        return "" if self._link is None else self._link.server
-
     def publish(
         self,
         subject: str,

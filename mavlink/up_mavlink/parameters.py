@@ -57,7 +57,6 @@ class Parameters:
 
     @property
     def is_known(self) -> bool:
-        """Return whether gains and keys have arrived."""
         return self._gains is not None and bool(self._files)
 
     def on_gains(self, data: Mapping[str, Any]) -> None:
@@ -85,7 +84,6 @@ class Parameters:
         self._files[file][key] = kind(_decimal(value))
 
     def values(self, frame: Frame) -> dict[str, float]:
-        """Return all values."""
         found = {"SYSID_THISMAV": float(self._system_id)}
         known = {PERIOD: ("system", "period_ms"), **_READ_ONLY}
         for name, path in known.items():

@@ -49,7 +49,6 @@ class Signing:
         self._newest: dict[tuple[int, int, int], int] = {}
 
     def next_stamp(self) -> int:
-        """Return the stamp of a packet to send."""
         now = round((time.time() - EPOCH_S) * UNITS_PER_S)
         self.stamp = max(self.stamp + 1, now)
         return self.stamp

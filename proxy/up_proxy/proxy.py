@@ -39,14 +39,11 @@ class Proxy:
         self._config = config
         self._tls = TLSFiles(folder / config.tls.folder) if config.tls.folder else None
         self._poller = Poller(reactor, reactor.seconds)
-        limits = config.limits
         self._are_ports_closed = False
         self._quota = TenantQuota(reactor, config.quota)
         self._node = self._new_node(folder) if config.cluster.servers else None
         make = AircraftSession if self._node is None else self._node.new_session
-        self.registry = AircraftRegistry(
-            reactor, self._poller, limits.aircraft, limits.listeners, make
-        )
+        self.registry = AircraftRegistry(reactor, self._poller, config.limits, make)
         self._acceptors: list[Acceptor] = []
         self._metrics_port: Any = None
         self._loop_tick = LoopTick(reactor, self._tick)

@@ -21,6 +21,7 @@ from up_runner.request import Request
 from up_runner.response import BUG, Problem, Response
 from up_runner.watchdog import Watchdog
 
+KILL_DELAY_S = 5.0
 PORT_CHECK_S = 0.1
 
 
@@ -103,7 +104,7 @@ class Instance:
         return waiter
 
     def stop(self, reason: Problem) -> None:
-        """Request the end of the process, and kill it after `kill_delay_s`."""
+        """Request the end of the process, and kill it after KILL_DELAY_S."""
         if (self.state, Input.STOP) in TRANSITIONS:
             self._log.info(
                 "stops: {reason}", code="stopping", cause=reason.code, reason=str(reason)
@@ -285,7 +286,7 @@ class Instance:
         self._is_stopping = True
         if self.state is State.RUNNING and self._timer is None:
             self._cancel_timers()
-            self._timer = self._clock.callLater(self._policy.kill_delay_s, child.kill)
+            self._timer = self._clock.callLater(KILL_DELAY_S, child.kill)
 
     def _kill_for(self, reason: Problem) -> None:
         self._reason = reason
@@ -299,7 +300,7 @@ class Instance:
     def _terminate(self) -> None:
         if self._child is not None:
             self._child.terminate()
-            self._timer = self._clock.callLater(self._policy.kill_delay_s, self._child.kill)
+            self._timer = self._clock.callLater(KILL_DELAY_S, self._child.kill)
 
     def _on_end(self, status: int | None) -> None:
         """Choose the next state after the end of the process."""

@@ -63,7 +63,6 @@ class Instances:
         return text + (": " if shown else "") + ", ".join(shown)
 
     def states(self) -> dict[str, State]:
-        """Return the states of the instances by their names."""
         return {name: each.state for name, each in self._instances.items()}
 
     def open(self) -> None:
@@ -118,7 +117,6 @@ class Instances:
 
     @property
     def free(self) -> int:
-        """Return how many more instances may run."""
         return 0 if self.is_closed else max(0, self._limit - len(self._instances))
 
     def get(self, name: str) -> Instance | None:

@@ -88,7 +88,6 @@ class LogKeeper:
             return 0.0
 
     def remove(self, name: str) -> None:
-        """Remove all logs of an instance that does not run."""
         self._begins.pop(name, None)
         pattern = re.compile(re.escape(name) + r"\.log(\.[0-9]+)?")
         for path in list(self.folder.glob(f"{name}.log*")):

@@ -25,7 +25,6 @@ class Policy:
     start_limit_s: float
     watchdog_s: float | None
     exit_delay_s: float | None
-    kill_delay_s: float
     restarts: Restarts
     always_restart: bool
     needed_ports: tuple[str, ...] = ()

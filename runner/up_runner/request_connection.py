@@ -52,7 +52,7 @@ class RequestConnection(Protocol):
         """Bytes of the buffer known to hold no line feed."""
         self._closing = False
         self._answered = False
-        self._idle = Watchdog(server.clock, server.idle_s, self._on_idle)
+        self._idle = Watchdog(server.clock, server.limits.idle_s, self._on_idle)
         self._unfinished = Watchdog(server.clock, UNFINISHED_S, self._on_unfinished)
         self._silence: Timer | None = None
         self._output_full = False

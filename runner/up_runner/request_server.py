@@ -19,6 +19,7 @@ from up.protocols.handshake import Refusal
 from up.protocols.runner_session import to_line
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock
+from up_runner.config import Connections
 from up_runner.request import MalformedRequest, Request, parse
 from up_runner.request_connection import RequestConnection
 from up_runner.request_gate import OFF, UNPROTECTED, RequestGate, refusal_of
@@ -42,20 +43,15 @@ class RequestServer(ServerFactory):
         clock: Clock,
         handle: Handle,
         encode: Callable[[Response, str], bytes],
-        *,
-        limit: int,
-        address_limit: int,
-        idle_s: float,
+        limits: Connections,
         gate: RequestGate,
     ) -> None:
         self.clock = clock
-        self.idle_s = idle_s
+        self.limits = limits
         self.encode = encode
         self.counts: Counter[str] = Counter()
         self.log = Logger(namespace="runner.requests")
         self._handle = handle
-        self._limit = limit
-        self._address_limit = address_limit
         self._gate = gate
         self._limited = Limited(cast(Any, clock), LOG_INTERVAL_S)
         self._connections: set[RequestConnection] = set()
@@ -75,10 +71,10 @@ class RequestServer(ServerFactory):
             self._reject("public_address", host, reason)
             return None
         source = neighbourhood(host)
-        if self._by_source[source] >= self._address_limit:
+        if self._by_source[source] >= self.limits.address_limit:
             self._reject("address_limit", host, "it has too many connections")
             return None
-        if len(self._connections) >= self._limit and not self._make_room():
+        if len(self._connections) >= self.limits.limit and not self._make_room():
             self._reject("connection_limit", host, "all connections are in use")
             return None
         connection = RequestConnection(self, host)
@@ -88,7 +84,6 @@ class RequestServer(ServerFactory):
         return connection
 
     def handle(self, connection: RequestConnection, request: Request) -> Deferred[bytes]:
-        """Return the line of the answer."""
         host = connection.host
         if request.body:
             return self._handle_protected(connection, request.body)

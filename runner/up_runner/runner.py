@@ -43,7 +43,6 @@ from up_runner.run_folder import CannotStart, RunFolder
 if TYPE_CHECKING:
     from up_runner.pool.pool import Pool
 
-KILL_DELAY_S = 5.0
 LISTEN_BACKLOG = 1024
 """With a short one a burst of connections delays a phone's by the kernel's repetition of 1 s."""
 _SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
@@ -73,24 +72,17 @@ class Runner:
         is_safe = config.i_accept_plain or bool(config.tls)
         self._gate = RequestGate(config.security, accepts_plain=is_safe)
         self._keys = KeyRing(reactor, self._config_folder, self._gate.use)
-        quota = config.key_quota
         self.instance_host = self._host(environ)
         self.instances = Instances(
             self.instance_host,
             policy_of(config),
             limit=config.instances,
             kept=config.kept_instances,
-            starts=KeyStarts(reactor, quota.instances, quota.starts_per_minute),
+            starts=KeyStarts(reactor, config.key_quota),
             on_change=self._on_change,
         )
         self.server = RequestServer(
-            reactor,
-            self._handle,
-            self._encode,
-            limit=config.connections.limit,
-            address_limit=config.connections.address_limit,
-            idle_s=config.connections.idle_s,
-            gate=self._gate,
+            reactor, self._handle, self._encode, config.connections, self._gate
         )
         self._pool: Pool | None = None
         self._port: Any = None
@@ -320,7 +312,6 @@ def policy_of(config: RunnerConfig) -> Policy:
         start_limit_s=config.start_limit_s,
         watchdog_s=config.watchdog_s or None,
         exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
-        kill_delay_s=KILL_DELAY_S,
         restarts=config.restarts,
         always_restart=not black_box,
         # Without this port no phone can reach it.

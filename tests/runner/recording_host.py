@@ -15,8 +15,8 @@ from up_runner.process import Identity
 from up_runner.request import Request
 from up_runner.response import Problem
 
-BLACK_BOX = Policy(10.0, 2.0, 60.0, 5.0, Restarts(), False)
-AIRBORNE = Policy(10.0, 2.0, None, 5.0, Restarts(), True)
+BLACK_BOX = Policy(10.0, 2.0, 60.0, Restarts(), False)
+AIRBORNE = Policy(10.0, 2.0, None, Restarts(), True)
 STOPPING = Problem("stopping", "the runner is stopping")
 PORTS = {"general": 50001, "orientation": 50000}
 

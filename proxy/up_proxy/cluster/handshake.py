@@ -93,7 +93,7 @@ class ClusterHandshake(Handshake):
         return session
 
     def _check_guests(self, session: ClusterSession) -> None:
-        if len(session.guests.connections) > self._registry.max_listeners:
+        if len(session.guests.connections) > self._registry.limits.listeners:
             raise HelloError(FULL, "too many grounds for this aircraft")
 
     def _wait(

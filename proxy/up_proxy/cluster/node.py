@@ -1,10 +1,12 @@
 """This proxy as a node of a cluster: its NATS client, its leases, its heartbeat."""
 
+import socket
 from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import psutil
 from twisted.internet.defer import Deferred, DeferredList
 
 from up.log import Limited, UpLogger
@@ -12,9 +14,8 @@ from up.protocols.proxy_lines import Side
 from up.system.clock import Timer, cancel
 from up_cluster.config import ClusterConfig
 from up_cluster.lease import Lease
-from up_cluster.membership import Membership, word
+from up_cluster.membership import Membership, usage_of, word
 from up_cluster.nats_protocol import Message
-from up_proxy.cluster.fleet_actions import FleetActions
 from up_proxy.cluster.handshake import ClusterHandshake
 from up_proxy.cluster.node_messages import (
     Envelope,
@@ -66,8 +67,10 @@ class ClusterNode:
         self._member.on_connected = self._on_connected
         self._member.on_ready = self._on_ready
         self.id = self._member.id
-        self._fleet = FleetActions(reactor, self._sessions, self.drain, quota)
-        self._member.actions.update(self._fleet.actions)
+        self._member.actions.update(
+            report=self._report, drain=self._on_drain_request, kick=self._kick
+        )
+        self._is_draining = False
         self.on_drain: Callable[[], object] = lambda: None
         self.leases = self._member.leases
         self._client = self._member.client
@@ -102,6 +105,41 @@ class ClusterNode:
         self.on_drain()
         for session in list(self._sessions):
             session.drain()
+
+    # What `up-fleet` requests.
+
+    def _homes(self) -> list[ClusterSession]:
+        return [each for each in self._sessions if each.is_home]
+
+    def _report(self, message: dict[str, Any]) -> dict[str, Any]:
+        guests = [each for each in self._sessions if not each.is_home and each.own_grounds]
+        return {
+            "kind": "proxy",
+            "host": socket.gethostname(),
+            "is_draining": self._is_draining,
+            "aircraft": [_row(each) for each in self._homes()],
+            "guests": [_row(each) for each in guests],
+            "usage": self.quota.used()._asdict(),
+            "quota": self.quota.limits,
+            **usage_of(psutil.Process()),
+        }
+
+    def _on_drain_request(self, message: dict[str, Any]) -> dict[str, Any]:
+        names = [each.name for each in self._homes()]
+        if not self._is_draining:
+            self._is_draining = True
+            # Not in the callback of a connection that the poller is serving.
+            self._reactor.callLater(0, self.drain)
+        return {"leaving": names}
+
+    def _kick(self, message: dict[str, Any]) -> dict[str, Any]:
+        for each in self._homes():
+            if each.name == message.get("aircraft"):
+                self._reactor.callLater(0, each.kick)
+                return {"stopping": each.name}
+        return {"code": "unknown_aircraft"}
+
+    # What the sessions use.
 
     def new_session(self, name: str, poller: Poller, limited: Limited) -> ClusterSession:
         session = ClusterSession(self, name, poller, limited)
@@ -166,7 +204,7 @@ class ClusterNode:
             ("connected", "1 while NATS is connected.", one(int(self._client.is_connected))),
             ("nodes", "Other nodes heard within two minutes.", one(len(self._ages))),
             ("leases", "Aircraft whose home is this node.", one(len(self.leases))),
-            ("draining", "1 after a drain.", one(int(self._fleet.is_draining))),
+            ("draining", "1 after a drain.", one(int(self._is_draining))),
         ]
         return named("up_proxy_cluster", counters, gauges)
 
@@ -196,3 +234,13 @@ class ClusterNode:
 
     def _on_ready(self) -> None:
         _log.info("leases are available", code="cluster_ready", node=self.id)
+
+
+def _row(session: ClusterSession) -> dict[str, Any]:
+    state = "online" if session.air_lease.owner is not None else "offline"
+    return {
+        "aircraft": session.name,
+        "state": state if session.is_home else "guest",
+        "grounds": session.own_grounds,
+        "rx_bytes": session.air_bytes + session.ground_bytes,
+    }

@@ -168,7 +168,6 @@ class Pool:
         return response
 
     def info(self) -> RunnerInfo:
-        """Return what the heartbeat contains."""
         is_able = self._directory.is_current and not (self._fleet.is_draining or self._is_stopped)
         free = self._instances.free if is_able else 0
         labels = frozenset(self._config.pool.labels)
