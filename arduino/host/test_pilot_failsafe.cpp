@@ -12,8 +12,7 @@ PilotBench& fly(PilotBench& bench, uint16_t aux1_us) {
   bench.fly(aux1_us);
   REQUIRE(bench.authority.is_armed());
   bench.sticks[THROTTLE] = 1600;
-  bench.sticks[AILERONS] = 1700;
-  bench.run(200);
+  bench.move(AILERONS, 1700, 200);
   return bench;
 }
 
@@ -50,8 +49,7 @@ TEST_CASE("pilot failsafe: loss is seen within 100 ms") {
 TEST_CASE("pilot failsafe: one channel that is dead or out of range is a lost receiver") {
   PilotBench bench;
   fly(bench, 1500);
-  bench.sticks[ELEVATOR] = 2200;
-  bench.run(60);
+  bench.move(ELEVATOR, 2200, 60);
   CHECK_FALSE(bench.authority.has_receiver());
   CHECK_FALSE(bench.authority.is_failsafe());
   bench.run(600);
@@ -72,11 +70,9 @@ TEST_CASE("pilot failsafe: the threshold of the receiver's own failsafe is the p
   PilotBench bench;
   bench.profile.throttle_lost_us = 960;
   fly(bench, 1500);
-  bench.sticks[THROTTLE] = 962;
-  bench.run(100);
+  bench.move(THROTTLE, 962, 100);
   CHECK(bench.authority.has_receiver());
-  bench.sticks[THROTTLE] = 940;
-  bench.run(100);
+  bench.move(THROTTLE, 940, 100);
   CHECK(bench.authority.is_failsafe());
 }
 
@@ -119,8 +115,7 @@ TEST_CASE("pilot failsafe: the Raspberry Pi is ignored, and its earlier requests
   REQUIRE(bench.output(1900, 1800) == Reason::NONE);
   bench.run(2);
   REQUIRE(bench.throttle_us() == 1800);
-  bench.sticks[THROTTLE] = 890;
-  bench.run(40);
+  bench.move(THROTTLE, 890, 40);
   REQUIRE(bench.authority.is_failsafe());
   CHECK(bench.throttle_us() == 1250);
   CHECK(bench.output(1900, 1800) == Reason::RECEIVER_INVALID);
@@ -128,8 +123,7 @@ TEST_CASE("pilot failsafe: the Raspberry Pi is ignored, and its earlier requests
   CHECK(bench.ask('u') == Reason::RECEIVER_INVALID);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.authority.mode() == Mode::FBW);
-  bench.sticks[THROTTLE] = 1600;
-  bench.run(40);
+  bench.move(THROTTLE, 1600, 40);
   REQUIRE_FALSE(bench.authority.is_failsafe());
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.throttle_us() == 1600);
@@ -141,8 +135,7 @@ TEST_CASE("pilot failsafe: an Output is not followed while the receiver is lost"
   bench.on_slot = [&] { bench.output(1900, 1800); };
   bench.run(100);
   REQUIRE(bench.authority.flown_mode() == Mode::OUTPUT);
-  bench.sticks[ELEVATOR] = 2200;
-  bench.run(40);
+  bench.move(ELEVATOR, 2200, 40);
   CHECK_FALSE(bench.authority.is_failsafe());
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.throttle_us() == 1600);
@@ -159,21 +152,17 @@ TEST_CASE("pilot failsafe: after more than 5 s the throttle waits for a low stic
   CHECK_FALSE(bench.authority.is_failsafe());
   CHECK(bench.throttle_us() == 1250);
   SUBCASE("not even an explicit demand at AUTO lifts it") {
-    bench.sticks[AUX1] = 2000;
-    bench.run(60);
+    bench.move(AUX1, 2000, 60);
     CHECK(bench.output(1500, 1800) == Reason::NONE);
     CHECK(bench.throttle_us() == 1250);
     bench.run(300);
   }
-  bench.sticks[THROTTLE] = 1100;
-  bench.run(60);
+  bench.move(THROTTLE, 1100, 60);
   CHECK(bench.throttle_us() == 1250);
-  bench.sticks[THROTTLE] = 1000;
-  bench.run(60);
+  bench.move(THROTTLE, 1000, 60);
   CHECK_FALSE(bench.authority.state().is_throttle_latched);
   CHECK(bench.throttle_us() == 1000);
-  bench.sticks[THROTTLE] = 1500;
-  bench.run(60);
+  bench.move(THROTTLE, 1500, 60);
   CHECK(bench.throttle_us() == 1500);
 }
 
@@ -191,11 +180,9 @@ TEST_CASE("pilot failsafe: after less than 5 s the throttle returns to the stick
 TEST_CASE("pilot failsafe: its own failsafe latches the throttle too") {
   PilotBench bench;
   fly(bench, 1500);
-  bench.sticks[THROTTLE] = 890;
-  bench.run(5200);
+  bench.move(THROTTLE, 890, 5200);
   CHECK(bench.authority.state().is_throttle_latched);
-  bench.sticks[THROTTLE] = 1600;
-  bench.run(100);
+  bench.move(THROTTLE, 1600, 100);
   CHECK(bench.throttle_us() == 1250);
 }
 

@@ -65,8 +65,7 @@ TEST_CASE("pilot Raspberry Pi: its authority needs AUTO, receiver, IMU, and a mo
 TEST_CASE("pilot Raspberry Pi: an IMU that is lost ends an Output that lives") {
   PilotBench bench;
   bench.fly(2000);
-  bench.sticks[THROTTLE] = 1300;
-  bench.run(60);
+  bench.move(THROTTLE, 1300, 60);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
   bench.is_imu_valid = false;
   bench.run(2);
@@ -103,8 +102,7 @@ TEST_CASE("pilot Raspberry Pi: no Setpoint lives longer than 250 ms, nor one of 
 TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living demand names one") {
   PilotBench bench;
   bench.fly(2000);
-  bench.sticks[THROTTLE] = 1300;
-  bench.run(60);
+  bench.move(THROTTLE, 1300, 60);
   CHECK(bench.output(1500, 0) == Reason::NONE);
   CHECK(bench.throttle_us() == 1300);
   CHECK(bench.output(1500, 1777) == Reason::NONE);
@@ -180,8 +178,7 @@ TEST_CASE("pilot Raspberry Pi: OUTPUT is not reported when it cannot be active")
     CHECK(bench.authority.mode() == Mode::ACRO);
   }
   SUBCASE("without a receiver") {
-    bench.sticks[THROTTLE] = 890;
-    bench.run(60);
+    bench.move(THROTTLE, 890, 60);
     CHECK(bench.authority.mode() == Mode::FBW);
   }
 }

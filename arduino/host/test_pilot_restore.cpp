@@ -20,8 +20,7 @@ void restart(PilotBench& bench, const PilotBench& before) {
 TEST_CASE("pilot restore: an armed aircraft flies on in its mode, with its throttle") {
   PilotBench before;
   before.fly(1500);
-  before.sticks[THROTTLE] = 1600;
-  before.run(100);
+  before.move(THROTTLE, 1600, 100);
   PilotBench bench(123456789);
   restart(bench, before);
   CHECK(bench.authority.is_armed());
@@ -55,8 +54,7 @@ TEST_CASE("pilot restore: the ground's requested mode, failsafe and latch are re
     CHECK(bench.authority.is_failsafe());
     CHECK(bench.authority.state().is_throttle_latched);
     CHECK(bench.throttle_us() == 1250);
-    bench.sticks[THROTTLE] = 1600;
-    bench.run(60);
+    bench.move(THROTTLE, 1600, 60);
     CHECK_FALSE(bench.authority.is_failsafe());
     CHECK(bench.throttle_us() == 1250);
   }
@@ -105,8 +103,7 @@ TEST_CASE("pilot restore: AUX2 keeps it armed and can still disarm it; it arms n
     restart(bench, before);
     bench.run(2000);
     CHECK(bench.authority.is_armed());
-    bench.sticks[AUX2] = 1000;
-    bench.run(400);
+    bench.move(AUX2, 1000, 400);
     CHECK_FALSE(bench.authority.is_armed());
   }
   SUBCASE("disarmed") {
@@ -122,8 +119,7 @@ TEST_CASE("pilot restore: AUX2 keeps it armed and can still disarm it; it arms n
 TEST_CASE("pilot restore: without it nothing is armed") {
   PilotBench bench;
   CHECK_FALSE(bench.authority.is_armed());
-  bench.sticks[AUX2] = 2000;
-  bench.run(3000);
+  bench.move(AUX2, 2000, 3000);
   CHECK_FALSE(bench.authority.is_armed());
 }
 

@@ -18,8 +18,7 @@ TEST_CASE("pilot switch: each position has its mode, AUTO without a demand is FB
     PilotBench bench;
     std::memcpy(bench.profile.switch_modes, map.letters, 3);
     for (uint8_t position = 0; position < 3; ++position) {
-      bench.sticks[AUX1] = static_cast<uint16_t>(1000 + 500 * position);
-      bench.run(100);
+      bench.move(AUX1, static_cast<uint16_t>(1000 + 500 * position), 100);
       CHECK(bench.authority.switch_position() == position);
       CHECK(bench.authority.is_auto() == (map.letters[position] == 'A'));
       const Mode modes[] = {map.low, map.middle, map.high};
@@ -73,14 +72,12 @@ TEST_CASE("pilot switch: leaving AUTO acts within one frame, whatever the Raspbe
 TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   PilotBench bench;
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}}) {
-    bench.sticks[AUX1] = aux1;
-    bench.run(100);
+    bench.move(AUX1, aux1, 100);
     for (char letter : {'r', 'f', 's', 'u'}) CHECK(bench.ask(letter) == Reason::NOT_AT_AUTO);
     CHECK(bench.demand(1000, 0) == Reason::NOT_AT_AUTO);
     CHECK(bench.authority.mode() == (aux1 == 1000 ? Mode::ACRO : Mode::FBW));
   }
-  bench.sticks[AUX1] = 2000;
-  bench.run(100);
+  bench.move(AUX1, 2000, 100);
   for (char letter : {'a', 'A', 'h', '\0', 'U', '\xFF'}) {
     CHECK(bench.ask(letter) == Reason::OUT_OF_RANGE);
     CHECK(bench.authority.mode() == Mode::FBW);
@@ -104,8 +101,7 @@ TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requeste
     CHECK(bench.authority.mode() == Mode::FBW);
     CHECK(bench.output(1600, 0) == Reason::NOT_AT_AUTO);
     bench.run(left_ms - 2);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.mode() == (left_ms < 140 ? Mode::RATE : Mode::FBW));
   }
 }
@@ -115,39 +111,31 @@ TEST_CASE("pilot switch: leaving AUTO ends the requests of ground and Raspberry 
   bench.fly(2000);
   SUBCASE("the mode") {
     REQUIRE(bench.ask('r') == Reason::NONE);
-    bench.sticks[AUX1] = 1500;
-    bench.run(140);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1500, 140);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.mode() == Mode::FBW);
     CHECK(bench.output(1600, 0) == Reason::NONE);
   }
   SUBCASE("the Output") {
     REQUIRE(bench.output(1600, 1700) == Reason::NONE);
     bench.run(2);
-    bench.sticks[AUX1] = 1500;
-    bench.run(40);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1500, 40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.flown_mode() == Mode::FBW);
     CHECK(bench.throttle_us() == 1000);
   }
   SUBCASE("the Setpoint") {
     REQUIRE(bench.demand(1600, 1700) == Reason::NONE);
     bench.run(2);
-    bench.sticks[AUX1] = 1000;
-    bench.run(40);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1000, 40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.flown_mode() == Mode::FBW);
     CHECK(bench.throttle_us() == 1000);
   }
   SUBCASE("OUTPUT that was said before the first Output") {
     REQUIRE(bench.ask('u') == Reason::NONE);
-    bench.sticks[AUX1] = 1500;
-    bench.run(40);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1500, 40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.mode() == Mode::FBW);
   }
 }
