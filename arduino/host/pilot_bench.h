@@ -154,4 +154,9 @@ class PilotBench {
   }
 };
 
+/** One that flies from the beginning, with the switch at a position. */
+struct FlyingBench : PilotBench {
+  explicit FlyingBench(uint16_t aux1_us, bool is_armed = true) { fly(aux1_us, is_armed); }
+};
+
 }  // namespace raspilot

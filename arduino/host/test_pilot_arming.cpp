@@ -168,8 +168,7 @@ TEST_CASE("pilot arming: the Raspberry Pi's veto ends after a second without ano
 }
 
 TEST_CASE("pilot arming: disarmed, the motor gets 1000 us whatever stick and Raspberry Pi do") {
-  PilotBench bench;
-  bench.fly(2000, false);
+  FlyingBench bench(2000, false);
   for (uint16_t throttle = 885; throttle <= 2115; throttle = static_cast<uint16_t>(throttle + 30)) {
     bench.move(THROTTLE, throttle, 40);
     CHECK(bench.output(1500, 1800) != Reason::NONE);
@@ -179,8 +178,7 @@ TEST_CASE("pilot arming: disarmed, the motor gets 1000 us whatever stick and Ras
 }
 
 TEST_CASE("pilot arming: armed, the throttle is the stick's") {
-  PilotBench bench;
-  bench.fly(1000);
+  FlyingBench bench(1000);
   REQUIRE(bench.authority.is_armed());
   for (uint16_t throttle : {uint16_t{1000}, uint16_t{1404}, uint16_t{2000}, uint16_t{1100}}) {
     bench.move(THROTTLE, throttle, 60);
@@ -189,8 +187,7 @@ TEST_CASE("pilot arming: armed, the throttle is the stick's") {
 }
 
 TEST_CASE("pilot arming: the ground disarms only after 2 s of low throttle that was seen") {
-  PilotBench bench;
-  bench.fly(1000);
+  FlyingBench bench(1000);
   bench.move(THROTTLE, 1500, 3000);
   CHECK(bench.disarm() == Reason::THROTTLE_NOT_LOW);
   bench.move(THROTTLE, 1000, 1900);
@@ -218,15 +215,13 @@ TEST_CASE("pilot arming: the ground disarms only after 2 s of low throttle that 
 }
 
 TEST_CASE("pilot arming: the time of low throttle does not wrap") {
-  PilotBench bench;
-  bench.fly(1000);
+  FlyingBench bench(1000);
   bench.run(70000);
   CHECK(bench.disarm() == Reason::NONE);
 }
 
 TEST_CASE("pilot arming: AUX2 low for 300 ms disarms, whatever the throttle") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   bench.move(THROTTLE, 1900, 500);
   bench.move(AUX2, 1000, 280);
   CHECK(bench.authority.is_armed());
@@ -237,8 +232,7 @@ TEST_CASE("pilot arming: AUX2 low for 300 ms disarms, whatever the throttle") {
 }
 
 TEST_CASE("pilot arming: neither a lost IMU, a lost receiver nor a veto disarms") {
-  PilotBench bench;
-  bench.fly(1500);
+  FlyingBench bench(1500);
   bench.move(THROTTLE, 1600, 100);
   SUBCASE("IMU") { bench.is_imu_valid = false; }
   SUBCASE("receiver") { bench.is_on = false; }

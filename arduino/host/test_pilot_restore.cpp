@@ -18,8 +18,7 @@ void restart(PilotBench& bench, const PilotBench& before) {
 }  // namespace
 
 TEST_CASE("pilot restore: an armed aircraft flies on in its mode, with its throttle") {
-  PilotBench before;
-  before.fly(1500);
+  FlyingBench before(1500);
   before.move(THROTTLE, 1600, 100);
   PilotBench bench(123456789);
   restart(bench, before);
@@ -61,8 +60,7 @@ TEST_CASE("pilot restore: the ground's requested mode, failsafe and latch are re
 }
 
 TEST_CASE("pilot restore: a receiver that stays lost triggers failsafe within a second") {
-  PilotBench before;
-  before.fly(1500);
+  FlyingBench before(1500);
   PilotBench bench;
   restart(bench, before);
   bench.is_on = false;
@@ -85,8 +83,7 @@ TEST_CASE("pilot restore: a receiver that was never received does not count as l
 }
 
 TEST_CASE("pilot restore: Outputs from before the reset do not live on") {
-  PilotBench before;
-  before.fly(2000);
+  FlyingBench before(2000);
   REQUIRE(before.output(1900, 1800) == Reason::NONE);
   PilotBench bench;
   restart(bench, before);
@@ -96,8 +93,7 @@ TEST_CASE("pilot restore: Outputs from before the reset do not live on") {
 }
 
 TEST_CASE("pilot restore: AUX2 keeps it armed and can still disarm it; it arms nothing") {
-  PilotBench before;
-  before.fly(1500);
+  FlyingBench before(1500);
   SUBCASE("armed") {
     PilotBench bench;
     restart(bench, before);

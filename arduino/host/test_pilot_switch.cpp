@@ -48,8 +48,7 @@ TEST_CASE("pilot switch: 1300 and 1700 us part the positions, 20 us each way") {
 
 TEST_CASE("pilot switch: leaving AUTO acts within one frame, whatever the Raspberry Pi sends") {
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}}) {
-    PilotBench bench;
-    bench.fly(2000);
+    FlyingBench bench(2000);
     bench.on_slot = [&] { bench.output(1900, 1800); };
     bench.run(400);
     REQUIRE(bench.authority.flown_mode() == Mode::OUTPUT);
@@ -91,8 +90,7 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
 }
 
 TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requested mode") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.ask('r') == Reason::NONE);
   for (uint32_t left_ms : {2u, 40u, 140u}) {
     CAPTURE(left_ms);
@@ -107,8 +105,7 @@ TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requeste
 }
 
 TEST_CASE("pilot switch: leaving AUTO ends the requests of ground and Raspberry Pi") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   SUBCASE("the mode") {
     REQUIRE(bench.ask('r') == Reason::NONE);
     bench.move(AUX1, 1500, 140);
@@ -161,8 +158,7 @@ TEST_CASE("pilot switch: without an IMU everything is a pass-through, and it com
 }
 
 TEST_CASE("pilot switch: outside AUTO Authority ignores a lost Raspberry Pi") {
-  PilotBench bench;
-  bench.fly(1500);
+  FlyingBench bench(1500);
   bench.sticks[THROTTLE] = 1600;
   bench.authority.accept_veto(true);
   bench.run(5000);
