@@ -9,7 +9,6 @@ from pathlib import Path
 
 from up.quick_dataclass import dataclass
 from up_runner.config import RunnerConfig
-from up_runner.run_folder import default_run_folder
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,5 +55,15 @@ def own_root() -> Path:
     return tree if (tree / "main.py").is_file() else Path.cwd()
 
 
+def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
+    """Return the default folder of sockets and state."""
+    if runtime := _first(environ, "RUNTIME_DIRECTORY"):
+        return Path(runtime)
+    if environ.get("XDG_RUNTIME_DIR"):
+        return Path(environ["XDG_RUNTIME_DIR"], "up-runner")
+    return Path(f"/tmp/up-runner-{uid}")
+
+
 def _first(environ: Mapping[str, str], variable: str) -> str:
+    """Return a folder of the service manager, which may name several."""
     return environ.get(variable, "").split(":")[0]

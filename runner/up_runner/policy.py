@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 
 from up.quick_dataclass import dataclass
-from up_runner.config import Restarts
+from up_runner.config import Restarts, RunnerConfig
 from up_runner.response import Problem
 
 ASLEEP = "asleep"
@@ -51,6 +51,27 @@ class Policy:
     def phone_gone(self) -> Problem:
         code = ASLEEP if self.sleeps else "phone_gone"
         return Problem(code, f"its phone was gone for {self.exit_delay_s:g} s")
+
+
+def policy_of(config: RunnerConfig) -> Policy:
+    """Return the requirements of a configuration for every instance.
+
+    Only a black box stops with its phone or after failures: the others may be in flight.
+    """
+    black_box = config.mode == "black box"
+    pool = config.pool
+    exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
+    sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
+    return Policy(
+        start_limit_s=config.start_limit_s,
+        watchdog_s=config.watchdog_s or None,
+        exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
+        restarts=config.restarts,
+        always_restart=not black_box,
+        # Without this port no phone can reach it.
+        needed_ports=("general",) if black_box else (),
+        sleeps=sleeps,
+    )
 
 
 class Backoff:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, cast
 
@@ -19,6 +19,7 @@ from up.protocols.handshake import Refusal
 from up.protocols.runner_session import to_line
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock
+from up.system.figures import Figure
 from up_runner.config import Connections
 from up_runner.request import MalformedRequest, Request, parse
 from up_runner.request_connection import RequestConnection
@@ -82,6 +83,12 @@ class RequestServer(ServerFactory):
         self._connections.add(connection)
         self._by_source[source] += 1
         return connection
+
+    def figures(self) -> Iterator[Figure]:
+        yield Figure("up_runner_connections", "Open connections of the request port.", len(self))
+        for reason, count in self.counts.items():
+            text = "Rejected connections and requests, by reason."
+            yield Figure("up_runner_rejected", text, count, {"reason": reason}, "counter")
 
     def handle(self, connection: RequestConnection, request: Request) -> Deferred[bytes]:
         host = connection.host

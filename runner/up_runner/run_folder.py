@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Mapping
 from pathlib import Path
 
 from up.system.pid_file import PidFile, PidFileHeld
@@ -21,17 +20,6 @@ class CannotStart(Exception):  # noqa: N818 - the text is the message
     def __init__(self, code: str, text: str) -> None:
         super().__init__(text)
         self.code = code
-
-
-def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
-    """Return the default folder of sockets and state."""
-    # systemd may name several, separated by colons.
-    runtime = environ.get("RUNTIME_DIRECTORY", "").split(":")[0]
-    if runtime:
-        return Path(runtime)
-    if environ.get("XDG_RUNTIME_DIR"):
-        return Path(environ["XDG_RUNTIME_DIR"], "up-runner")
-    return Path(f"/tmp/up-runner-{uid}")
 
 
 class RunFolder:

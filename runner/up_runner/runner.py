@@ -30,14 +30,11 @@ from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import InstanceHost
 from up_runner.instances import STOPPING, Instances
-from up_runner.key_starts import KeyStarts
-from up_runner.metrics import figures_of
 from up_runner.paths import Paths
-from up_runner.policy import Policy
 from up_runner.request import Request
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
-from up_runner.response import Problem, Response
+from up_runner.response import Response, failed
 from up_runner.run_folder import CannotStart, RunFolder
 
 if TYPE_CHECKING:
@@ -73,14 +70,7 @@ class Runner:
         self._gate = RequestGate(config.security, accepts_plain=is_safe)
         self._keys = KeyRing(reactor, self._config_folder, self._gate.use)
         self.instance_host = self._host(environ)
-        self.instances = Instances(
-            self.instance_host,
-            policy_of(config),
-            limit=config.instances,
-            kept=config.kept_instances,
-            starts=KeyStarts(reactor, config.key_quota),
-            on_change=self._on_change,
-        )
+        self.instances = Instances(self.instance_host, config, self._on_change)
         self.server = RequestServer(
             reactor, self._handle, self._encode, config.connections, self._gate
         )
@@ -151,7 +141,7 @@ class Runner:
     def _open_metrics(self, port: int) -> None:
         def page() -> str:
             pool = () if self._pool is None else self._pool.figures()
-            return text_of([*figures_of(self.instances, self.server), *pool])
+            return text_of([*self.instances.figures(), *self.server.figures(), *pool])
 
         try:
             self._metrics_port = serve_metrics(self._reactor, port, page, self._unready_code)
@@ -280,8 +270,8 @@ class Runner:
             return Deferred.fromCoroutine(self._pool.handle(request))
         missing = set(request.labels) - set(self._config.pool.labels)
         if missing and request.action == "spawn":
-            problem = Problem("no_runner", f"this host lacks the labels {', '.join(missing)}")
-            return succeed(Response(request.aircraft, error=problem))
+            text = f"this host lacks the labels {', '.join(missing)}"
+            return succeed(failed(request.aircraft, "no_runner", text))
         if request.action == "status":
             return succeed(self.instances.status(request.aircraft))
         return Deferred.fromCoroutine(self.instances.spawn(request))
@@ -297,24 +287,3 @@ class Runner:
 
     def _on_change(self) -> None:
         self._notifier.status(self.instances.summary())
-
-
-def policy_of(config: RunnerConfig) -> Policy:
-    """Return the requirements of a configuration for every instance.
-
-    Only a black box stops with its phone or after failures: the others may be in flight.
-    """
-    black_box = config.mode == "black box"
-    pool = config.pool
-    exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
-    sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
-    return Policy(
-        start_limit_s=config.start_limit_s,
-        watchdog_s=config.watchdog_s or None,
-        exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
-        restarts=config.restarts,
-        always_restart=not black_box,
-        # Without this port no phone can reach it.
-        needed_ports=("general",) if black_box else (),
-        sleeps=sleeps,
-    )

@@ -8,8 +8,8 @@ import pytest
 from up.config import ConfigErrors
 from up_runner.config import RUNNER, RunnerConfig
 from up_runner.paths import Paths, own_root
+from up_runner.policy import policy_of
 from up_runner.pool_config import PoolConfig
-from up_runner.runner import policy_of
 
 HERE = Path("runner.yml")
 

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_root
-from up_runner.run_folder import MAX_PATH_BYTES, CannotStart, RunFolder, default_run_folder
+from up_runner.paths import default_run_folder
+from up_runner.run_folder import MAX_PATH_BYTES, CannotStart, RunFolder
 
 
 @contextlib.contextmanager

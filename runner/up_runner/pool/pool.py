@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,18 +28,17 @@ from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
 from up_runner.pool.fleet_actions import FleetActions
 from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
-from up_runner.pool.messages import (
-    ELSEWHERE,
-    NO_ANSWER,
-    decode_response,
-    encode_response,
-    failed,
-)
 from up_runner.pool.orphans import Orphans
 from up_runner.pool.placement import HEARTBEAT_S, RunnerInfo, ranking
 from up_runner.pool.state_files import Store
 from up_runner.request import MalformedRequest, Request, decode_request, encode_request
-from up_runner.response import Response
+from up_runner.response import (
+    NO_ANSWER,
+    Response,
+    decode_response,
+    encode_response,
+    failed,
+)
 
 STORE = "up-state"
 RENEWALS = 5
@@ -49,7 +49,7 @@ ANSWER_S = 2.0
 """For the answer of another runner, beyond the time limit of a start."""
 ID = ".pool-id"
 CLUSTER, DRAINING, INSTANCE_LIMIT = "cluster", "draining", "instance_limit"
-QUOTA = "quota"
+QUOTA, ELSEWHERE = "quota", "elsewhere"
 _log = UpLogger.get_logger("runner.pool")
 
 
@@ -86,10 +86,13 @@ class Pool:
         self.hosted = HostedInstances(
             reactor, config, self._member, store, instances, host, self._counts
         )
-        self._orphans = Orphans(self._directory, self.hosted, self._counts, self._start_orphan)
+        take = partial(self._start_here, is_orphan=True)
+        self._orphans = Orphans(self._directory, self.hosted, self._counts, take)
         self._fleet = FleetActions(instances, self.info, self._beat, self._shares)
         self._member.actions.update(
-            start=self._on_start, request=self._on_request, **self._fleet.actions
+            start=partial(self._on_peer, self._start_here),
+            request=partial(self._on_peer, self._request_here),
+            **self._fleet.actions,
         )
         self._starting: set[str] = set()
         """Aircraft without a lease yet, which count for the quota."""
@@ -310,9 +313,6 @@ class Pool:
                 self.hosted.end(hosted, response.error.code)
             return response
 
-    async def _start_orphan(self, request: Request) -> Response:
-        return await self._start_here(request, is_orphan=True)
-
     def _named(self, response: Response) -> Response:
         return replace(response, host=self._config.pool.address)
 
@@ -336,13 +336,7 @@ class Pool:
         self._directory.follow()
         run(self.hosted.save_old_flights(), "the flights of earlier instances")
 
-    async def _on_start(self, message: dict[str, Any]) -> dict[str, Any]:
-        return await self._on_peer(message, self._start_here)
-
-    async def _on_request(self, message: dict[str, Any]) -> dict[str, Any]:
-        return await self._on_peer(message, self._request_here)
-
-    async def _on_peer(self, message: dict[str, Any], carry_out: Any) -> dict[str, Any]:
+    async def _on_peer(self, carry_out: Any, message: dict[str, Any]) -> dict[str, Any]:
         try:
             request = decode_request(message)
         except MalformedRequest:
