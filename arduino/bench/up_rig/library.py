@@ -45,7 +45,6 @@ class Meter(ctypes.Structure):
     _fields_ = [
         ("interrupt_cycles", ctypes.c_uint64),
         ("counts", ctypes.c_uint64 * 26),
-        ("longest", ctypes.c_uint32 * 26),
         ("longest_off", ctypes.c_uint32),
         ("longest_off_pc", ctypes.c_uint16),
         ("sleep_cycles", ctypes.c_uint64),

@@ -164,11 +164,8 @@ class Rig:
 
     def untouched_ram(self) -> int:
         """Return the bytes between the variables and the lowest place the stack ever wrote."""
-        start = (
-            self._symbol("__heap_start").address
-            if "__heap_start" in self.firmware.symbols
-            else self._symbol("_end").address
-        )
+        has_heap = "__heap_start" in self.firmware.symbols
+        start = self._symbol("__heap_start" if has_heap else "_end").address
         data = self._library.rig_data(self._handle)
         end = start
         while end < RAM_START + RAM_SIZE and data[end] == STACK_PATTERN:

@@ -69,11 +69,7 @@ void interrupt_enter(rig_t *rig) {
     if (vector == 6 && avr->data[R_WDTCSR] & 8) avr->data[R_WDTCSR] &= (uint8_t)~0x40;
     rig->off_since = avr->cycle;
     rig->off_pc = (uint16_t)(vector * 4);
-    if (rig->depth < 16) {
-        rig->nest[rig->depth].vector = (uint8_t)vector;
-        rig->nest[rig->depth].entry = avr->cycle;
-    }
-    rig->depth++;
+    if (!rig->depth++) rig->entered = avr->cycle;
     rig->meter.counts[vector]++;
     avr->cycle += avr->state == cpu_Sleeping ? 8 : 4;
     avr->state = cpu_Running;
@@ -83,13 +79,8 @@ void interrupt_enter(rig_t *rig) {
 
 /* A RETI begins. */
 void interrupt_leave(rig_t *rig) {
-    if (!rig->depth) return;
-    rig->depth--;
-    if (rig->depth >= 16) return;
-    uint8_t vector = rig->nest[rig->depth].vector;
-    uint64_t taken = rig->avr->cycle + 4 - rig->nest[rig->depth].entry;
-    if (taken > rig->meter.longest[vector]) rig->meter.longest[vector] = (uint32_t)taken;
-    if (!rig->depth) rig->meter.interrupt_cycles += taken;
+    if (!rig->depth || --rig->depth) return;
+    rig->meter.interrupt_cycles += rig->avr->cycle + 4 - rig->entered;
 }
 
 /* Flags are cleared by writing ones; SBI clears its own alone. */

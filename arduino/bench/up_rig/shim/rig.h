@@ -143,7 +143,6 @@ typedef struct {
 typedef struct {
     uint64_t interrupt_cycles;          /* from an interrupt's entry to its RETI */
     uint64_t counts[VECTORS];
-    uint32_t longest[VECTORS];          /* cycles of one run of the handler, entry included */
     uint32_t longest_off;               /* longest time with interrupts off */
     uint16_t longest_off_pc;
     uint64_t sleep_cycles;
@@ -184,7 +183,7 @@ struct rig {
     cycle_t reset_until;
     cycle_t start_up;        /* length of a reset, the fuses' SUT */
     uint8_t depth;           /* of nested interrupts */
-    struct { uint8_t vector; cycle_t entry; } nest[16];
+    cycle_t entered;         /* when the outermost of them began */
     cycle_t off_since;
     uint16_t off_pc;
     uint32_t break_pc;       /* where `on_break` writes, UINT32_MAX for nowhere */
