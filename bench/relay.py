@@ -66,23 +66,25 @@ def pinned(*command: str) -> AbstractContextManager[subprocess.Popen[bytes]]:
 
 
 @contextmanager
-def our_proxy(folder: Path, more: str = "") -> Iterator[tuple[int, int, int]]:
+def our_proxy(more: str = "") -> Iterator[tuple[int, int, int]]:
     """Run up-proxy on the relay's core; yield its pid, its airborne and its ground port."""
-    (folder / "proxy.yml").write_text(
-        "airborne port: 0\nground port: 0\nmetrics: false\n"
-        "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
-        f"  aircraft: 6000\n  connections per second: 100000\n{more}"
-    )
-    proxy = RealProxy(folder, folder)
-    proxy.start()
-    try:
-        proxy.wait_for_ports()
-        os.sched_setaffinity(proxy.pid, {cores()[0]})
-        yield proxy.pid, proxy.airborne_port, proxy.ground_port
-    except ParticipantError as error:
-        raise RuntimeError(str(error)) from error
-    finally:
-        proxy.stop()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "proxy.yml").write_text(
+            "airborne port: 0\nground port: 0\nmetrics: false\n"
+            "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
+            f"  aircraft: 6000\n  connections per second: 100000\n{more}"
+        )
+        proxy = RealProxy(folder, folder)
+        proxy.start()
+        try:
+            proxy.wait_for_ports()
+            os.sched_setaffinity(proxy.pid, {cores()[0]})
+            yield proxy.pid, proxy.airborne_port, proxy.ground_port
+        except ParticipantError as error:
+            raise RuntimeError(str(error)) from error
+        finally:
+            proxy.stop()
 
 
 def free_port() -> int:
@@ -145,7 +147,7 @@ def measure_direct(seconds: float) -> Figures:
 
 
 def measure_ours(seconds: float) -> Figures:
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+    with our_proxy() as (pid, air, ground):
         return Load("proxy", seconds, echo=air, send=ground).figures(pid)
 
 
@@ -219,7 +221,7 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
     pairs = min(pairs, allowed)
     if soft != resource.RLIM_INFINITY:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, 2 * pairs + 200), hard))
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+    with our_proxy() as (pid, air, ground):
         keep = [dial(air, "UP1 aircraft=warm\n"), dial(ground, "UP1 aircraft=warm\n")]
         before_mib = resident_mib(pid)
         for number in range(pairs):
@@ -255,7 +257,7 @@ def beat(peers: list[socket.socket]) -> None:
 
 def stalled_row(seconds: float = 2.0) -> Row:
     """Return how much a ground that does not read makes the proxy grow."""
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+    with our_proxy() as (pid, air, ground):
         aircraft = dial(air, "UP1 aircraft=stall\n")
         stalled = dial(ground, "UP1 aircraft=stall seat=command\n")
         before_mib = peak_mib = resident_mib(pid)

@@ -92,10 +92,7 @@ def haproxy(folder: Path, port: int, echo: int, storm: int = 0) -> Iterator[int]
 
 
 def measure_ours(seconds: float, own: Path) -> Figures:
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        our_proxy(Path(folder), tls_settings(own)) as (pid, air, ground),
-    ):
+    with our_proxy(tls_settings(own)) as (pid, air, ground):
         return Load("proxy", seconds, own, echo=air, send=ground).figures(pid)
 
 
@@ -128,10 +125,7 @@ def relay_rows(rounds: int, seconds: float, own: Path) -> Iterable[Row]:
 
 def memory_row(pairs: int, own: Path) -> Row:
     client = TLSFiles(own / "client").client()
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        our_proxy(Path(folder), tls_settings(own)) as (pid, _, ground),
-    ):
+    with our_proxy(tls_settings(own)) as (pid, _, ground):
 
         def pair(number: int) -> list[socket.socket]:
             hello = f"UP1 aircraft=idle-{number} seat=listen\n"
@@ -189,10 +183,7 @@ def storm_rows(rounds: int, own: Path) -> Iterable[Row]:
     """Yield what a storm costs, and the round trips of good peers relayed during it."""
     ours, theirs = [], []
     for _ in range(rounds):
-        with (
-            tempfile.TemporaryDirectory() as folder,
-            our_proxy(Path(folder), tls_settings(own)) as (pid, air, ground),
-        ):
+        with our_proxy(tls_settings(own)) as (pid, air, ground):
             load = Load("proxy", STORM_LOAD_S, own, pairs=GOOD_PAIRS, echo=air, send=ground)
             ours.append(storm(load, ground, pid, own))
         if shutil.which("haproxy") is not None:
