@@ -15,7 +15,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from twisted.internet.defer import Deferred
+from twisted.internet.defer import maybeDeferred
 from twisted.internet.threads import deferToThread
 
 from up_cluster.errors import RefusedError, UnavailableError
@@ -23,8 +23,8 @@ from up_cluster.jetstream import EXPECTED, api, create_stream, stored, write
 from up_cluster.nats_client import NatsClient
 
 CHUNK_BYTES = 128 * 1024
-ReadChunk = Callable[[int], "bytes | Deferred[bytes]"]
-"""Returns the next bytes, at most as many as given; empty at the end."""
+ReadChunk = Callable[[int], Any]
+"""Returns the next bytes, at most as many as given, or their Deferred; empty at the end."""
 
 
 class ObjectDamagedError(Exception):
@@ -111,7 +111,7 @@ class ObjectStore:
             old = await self.info(name)
         digest, size, chunks = hashlib.sha256(), 0, 0
         try:
-            while data := await _result(read(CHUNK_BYTES)):
+            while data := await maybeDeferred(read, CHUNK_BYTES):
                 await write(self._client, self._chunks(nuid), data)
                 digest.update(data)
                 size, chunks = size + len(data), chunks + 1
@@ -178,10 +178,6 @@ class ObjectStore:
 
     def _meta(self, name: str) -> str:
         return f"$O.{self._name}.M.{urlsafe_b64encode(name.encode()).decode()}"
-
-
-async def _result(value: "bytes | Deferred[bytes]") -> bytes:
-    return await value if isinstance(value, Deferred) else value
 
 
 def _text(digest: Any) -> str:
