@@ -26,7 +26,7 @@ from up_runner.instance_host import InstanceHost
 from up_runner.instances import Instances
 from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
-from up_runner.pool.fleet_actions import FleetActions
+from up_runner.pool.fleet_actions import drain, kick, report
 from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
 from up_runner.pool.orphans import Orphans
 from up_runner.pool.placement import HEARTBEAT_S, RunnerInfo, ranking
@@ -88,12 +88,14 @@ class Pool:
         )
         take = partial(self._start_here, is_orphan=True)
         self._orphans = Orphans(self._directory, self.hosted, self._counts, take)
-        self._fleet = FleetActions(instances, self.info, self._beat, self._shares)
         self._member.actions.update(
             start=partial(self._on_peer, self._start_here),
             request=partial(self._on_peer, self._request_here),
-            **self._fleet.actions,
+            report=self._on_report,
+            drain=self._on_drain,
+            kick=partial(kick, instances),
         )
+        self._is_draining = False
         self._starting: set[str] = set()
         """Aircraft without a lease yet, which count for the quota."""
         self._is_stopped = False
@@ -171,14 +173,14 @@ class Pool:
         return response
 
     def info(self) -> RunnerInfo:
-        is_able = self._directory.is_current and not (self._fleet.is_draining or self._is_stopped)
+        is_able = self._directory.is_current and not (self._is_draining or self._is_stopped)
         free = self._instances.free if is_able else 0
         labels = frozenset(self._config.pool.labels)
         return RunnerInfo(self.id, self._config.pool.address, free, labels)
 
     def unready_code(self) -> str:
         """Return why the pool starts nothing by this runner; empty: it does."""
-        if self._fleet.is_draining:
+        if self._is_draining:
             return DRAINING
         return "" if self._member.is_ready and self._directory.is_current else CLUSTER
 
@@ -277,7 +279,7 @@ class Pool:
         async with self.hosted.lock(name):
             if name in self.hosted:
                 return self._named(await self._instances.spawn(request))
-            if self._fleet.is_draining or self._is_stopped:
+            if self._is_draining or self._is_stopped:
                 return failed(name, DRAINING, "this runner drains")
             if not is_orphan and self._is_over_quota(name):
                 self._counts[QUOTA] += 1
@@ -335,6 +337,16 @@ class Pool:
         _log.info("the pool is available", code="pool_ready", node=self.id)
         self._directory.follow()
         run(self.hosted.save_old_flights(), "the flights of earlier instances")
+
+    def _on_report(self, message: dict[str, Any]) -> dict[str, Any]:
+        found = report(self.info(), self._instances)
+        return {**found, "is_draining": self._is_draining, **self._shares()}
+
+    def _on_drain(self, message: dict[str, Any]) -> dict[str, Any]:
+        """Start nothing here again, and let the instances move."""
+        self._is_draining = True
+        self._beat()
+        return drain(self._instances)
 
     async def _on_peer(self, carry_out: Any, message: dict[str, Any]) -> dict[str, Any]:
         try:
