@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from bench.cluster_search import search_rows
-from bench.table import LeftOutError, Row
+from bench.table import LeftOutError, Row, limited
 from bench.timing import percentile
 from tests.proxy.cluster.nodes import Nodes
 from tests.proxy.cluster.traffic import Traffic
@@ -52,10 +52,6 @@ def cluster(hosts: int = 3) -> Iterator[tuple[Any, Any, Any]]:
         network = stack.enter_context(Hosts(hosts)) if hosts else None
         servers = stack.enter_context(NatsServers(folder, network=network))
         yield network, servers, stack.enter_context(Nodes(servers, folder, more=LIMITS))
-
-
-def limited(what: str, unit: str, value: float, limit: float) -> Row:
-    return Row(what, f"{value:.2f} {unit}", target=f"<= {limit:g} {unit}", met=value <= limit)
 
 
 def fault_rows(what: str, traffic: Traffic, seconds: int = 0) -> Iterable[Row]:

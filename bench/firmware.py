@@ -280,8 +280,7 @@ def _loop_rows(elf: Path, measured_us: float) -> Iterable[Row]:
 
 def _size_rows(elf: Path) -> Iterable[Row]:
     firmware = Rig(elf).firmware
-    flash = sum(len(part) for _, part in firmware.flash)
-    ram = firmware.symbols["_end"].address - RAM_START
+    flash, ram = firmware.size, firmware.symbols["_end"].address - RAM_START
     yield Row(
         "firmware, flash",
         f"{flash} B",

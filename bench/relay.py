@@ -7,6 +7,7 @@ from one run on one machine.
 import json
 import math
 import os
+import re
 import resource
 import shutil
 import socket
@@ -15,12 +16,13 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from bench.processes import cpu_s, resident_mib, tree
-from bench.table import LeftOutError, Row, compared
+from bench.processes import cpu_s, resident_mib, running, tree, wait_until
+from bench.relay_load import dial
+from bench.table import LeftOutError, Row, compared, limited
 from bench.timing import Limit
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.programs import RealProxy
@@ -36,7 +38,6 @@ MANY_PAIRS = 5000
 MANY_PAIRS_TARGET = Limit(15.0)
 STALL_MB_TARGET = 5.0
 LOAD = Path(__file__).with_name("relay_load.py")
-DEADLINE_S = 60.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,42 +60,31 @@ def cores() -> tuple[int, int]:
     return allowed[0], allowed[-1]
 
 
-@contextmanager
-def process(*command: str) -> Iterator[subprocess.Popen[str]]:
-    relay_core, _ = cores()
-    running = subprocess.Popen(
-        ["taskset", "-c", str(relay_core), *command],
-        text=True,
-    )
-    try:
-        yield running
-    finally:
-        running.terminate()
-        try:
-            running.wait(5)
-        except subprocess.TimeoutExpired:
-            running.kill()
-            running.wait()
+def pinned(*command: str) -> AbstractContextManager[subprocess.Popen[bytes]]:
+    """Run a relay on its core; its complaints go to stderr."""
+    return running(("taskset", "-c", str(cores()[0]), *command), sys.stderr)
 
 
 @contextmanager
-def our_proxy(folder: Path, more: str = "") -> Iterator[tuple[int, int, int]]:
+def our_proxy(more: str = "") -> Iterator[tuple[int, int, int]]:
     """Run up-proxy on the relay's core; yield its pid, its airborne and its ground port."""
-    (folder / "proxy.yml").write_text(
-        "airborne port: 0\nground port: 0\nmetrics: false\n"
-        "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
-        f"  aircraft: 6000\n  connections per second: 100000\n{more}"
-    )
-    proxy = RealProxy(folder, folder)
-    proxy.start()
-    try:
-        proxy.wait_for_ports()
-        os.sched_setaffinity(proxy.pid, {cores()[0]})
-        yield proxy.pid, proxy.airborne_port, proxy.ground_port
-    except ParticipantError as error:
-        raise RuntimeError(str(error)) from error
-    finally:
-        proxy.stop()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "proxy.yml").write_text(
+            "airborne port: 0\nground port: 0\nmetrics: false\n"
+            "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
+            f"  aircraft: 6000\n  connections per second: 100000\n{more}"
+        )
+        proxy = RealProxy(folder, folder)
+        proxy.start()
+        try:
+            proxy.wait_for_ports()
+            os.sched_setaffinity(proxy.pid, {cores()[0]})
+            yield proxy.pid, proxy.airborne_port, proxy.ground_port
+        except ParticipantError as error:
+            raise RuntimeError(str(error)) from error
+        finally:
+            proxy.stop()
 
 
 def free_port() -> int:
@@ -103,14 +93,10 @@ def free_port() -> int:
 
 
 def wait_for_port(port: int) -> None:
-    deadline_s = time.monotonic() + DEADLINE_S
-    while time.monotonic() < deadline_s:
-        if f":{port:04X} " in "".join(
-            line for line in Path("/proc/net/tcp").read_text().splitlines(True) if " 0A " in line
-        ):
-            return
-        time.sleep(0.02)
-    raise RuntimeError(f"no program listens on port {port}")
+    """Return when a program listens; a connection would count as one of the load."""
+    listening = re.compile(rf":{port:04X} \S+ 0A ")
+    path = Path("/proc/net/tcp")
+    wait_until(lambda: listening.search(path.read_text()), f"a program listens on port {port}")
 
 
 class Load:
@@ -161,7 +147,7 @@ def measure_direct(seconds: float) -> Figures:
 
 
 def measure_ours(seconds: float) -> Figures:
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+    with our_proxy() as (pid, air, ground):
         return Load("proxy", seconds, echo=air, send=ground).figures(pid)
 
 
@@ -192,7 +178,7 @@ def measure_peer(name: str, seconds: float) -> Figures | None:
     load = Load("forward", seconds)
     echo = int(load.hear("echo")["echo"])
     port = free_port()
-    with tempfile.TemporaryDirectory() as folder, process(*command(Path(folder), port, echo)) as it:
+    with tempfile.TemporaryDirectory() as folder, pinned(*command(Path(folder), port, echo)) as it:
         wait_for_port(port)
         load.tell({"send": port})
         return load.figures(it.pid)
@@ -228,14 +214,6 @@ def added_us(runs: list[Figures], direct: list[Figures], share: str) -> list[flo
     ]
 
 
-def dial(port: int, hello: str) -> socket.socket:
-    peer = socket.create_connection(("127.0.0.1", port))
-    peer.sendall(hello.encode("ascii"))
-    if not peer.recv(4096).startswith(b"UP1 ok"):
-        raise RuntimeError("the proxy refused the benchmark")
-    return peer
-
-
 def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
     """Yield the cost of many pairs: memory of an idle one, a core's share with their heartbeats."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -243,7 +221,7 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
     pairs = min(pairs, allowed)
     if soft != resource.RLIM_INFINITY:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, 2 * pairs + 200), hard))
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+    with our_proxy() as (pid, air, ground):
         keep = [dial(air, "UP1 aircraft=warm\n"), dial(ground, "UP1 aircraft=warm\n")]
         before_mib = resident_mib(pid)
         for number in range(pairs):
@@ -262,12 +240,7 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
             shares.append(100 * used_s / (time.monotonic() - began_s))
         for peer in keep:
             peer.close()
-    yield Row(
-        f"relay, memory of an idle pair ({pairs} pairs)",
-        f"{each:.0f} B",
-        target=f"<= {PAIR_BYTES_TARGET} B",
-        met=each <= PAIR_BYTES_TARGET,
-    )
+    yield limited(f"relay, memory of an idle pair ({pairs} pairs)", "B", each, PAIR_BYTES_TARGET)
     what = f"relay, {pairs} pairs with a heartbeat a second from each end"
     limit = MANY_PAIRS_TARGET if pairs == MANY_PAIRS else None
     yield compared(what, "% of a core", shares, limit=limit)
@@ -284,7 +257,7 @@ def beat(peers: list[socket.socket]) -> None:
 
 def stalled_row(seconds: float = 2.0) -> Row:
     """Return how much a ground that does not read makes the proxy grow."""
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+    with our_proxy() as (pid, air, ground):
         aircraft = dial(air, "UP1 aircraft=stall\n")
         stalled = dial(ground, "UP1 aircraft=stall seat=command\n")
         before_mib = peak_mib = resident_mib(pid)

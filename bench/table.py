@@ -81,6 +81,11 @@ def compared(
     )
 
 
+def limited(what: str, unit: str, value: float, limit: float) -> Row:
+    """Return the row of one figure that may be at most ``limit``."""
+    return Row(what, figure(value, unit), target=f"<= {limit:g} {unit}", met=value <= limit)
+
+
 def _cells(row: Row) -> tuple[str, ...]:
     met = "too noisy" if row.is_noisy else _MET[row.met]
     return (row.what, row.ours, row.peer, row.peer_figure, row.ratio, row.target, met)

@@ -30,11 +30,11 @@ from bench.relay import (
     free_port,
     measure_direct,
     our_proxy,
-    process,
+    pinned,
     wait_for_port,
 )
 from bench.relay_load import dial
-from bench.table import LeftOutError, Row, compared
+from bench.table import LeftOutError, Row, compared, limited
 from bench.timing import Limit
 from up.config.keys_file import add_key
 from up.protocols.pairing import Pairing
@@ -86,16 +86,13 @@ def haproxy(folder: Path, port: int, echo: int, storm: int = 0) -> Iterator[int]
         f"listen relay\n  bind 127.0.0.1:{port} {bind}\n"
         f"  server echo 127.0.0.1:{echo} ssl {check}\n{second}"
     )
-    with process("haproxy", "-db", "-q", "-f", str(path)) as running:
+    with pinned("haproxy", "-db", "-q", "-f", str(path)) as relay:
         wait_for_port(port)
-        yield running.pid
+        yield relay.pid
 
 
 def measure_ours(seconds: float, own: Path) -> Figures:
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        our_proxy(Path(folder), tls_settings(own)) as (pid, air, ground),
-    ):
+    with our_proxy(tls_settings(own)) as (pid, air, ground):
         return Load("proxy", seconds, own, echo=air, send=ground).figures(pid)
 
 
@@ -128,10 +125,7 @@ def relay_rows(rounds: int, seconds: float, own: Path) -> Iterable[Row]:
 
 def memory_row(pairs: int, own: Path) -> Row:
     client = TLSFiles(own / "client").client()
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        our_proxy(Path(folder), tls_settings(own)) as (pid, _, ground),
-    ):
+    with our_proxy(tls_settings(own)) as (pid, _, ground):
 
         def pair(number: int) -> list[socket.socket]:
             hello = f"UP1 aircraft=idle-{number} seat=listen\n"
@@ -148,8 +142,7 @@ def memory_row(pairs: int, own: Path) -> Row:
         for peer in keep:
             peer.close()
     what = f"TLS relay, memory of two idle connections ({pairs} pairs)"
-    target = f"<= {PAIR_KIB_TARGET:g} KiB"
-    return Row(what, f"{each_kib:.1f} KiB", target=target, met=each_kib <= PAIR_KIB_TARGET)
+    return limited(what, "KiB", each_kib, PAIR_KIB_TARGET)
 
 
 def storm_s(port: int, pid: int, own: Path, count: int) -> tuple[float, float]:
@@ -190,10 +183,7 @@ def storm_rows(rounds: int, own: Path) -> Iterable[Row]:
     """Yield what a storm costs, and the round trips of good peers relayed during it."""
     ours, theirs = [], []
     for _ in range(rounds):
-        with (
-            tempfile.TemporaryDirectory() as folder,
-            our_proxy(Path(folder), tls_settings(own)) as (pid, air, ground),
-        ):
+        with our_proxy(tls_settings(own)) as (pid, air, ground):
             load = Load("proxy", STORM_LOAD_S, own, pairs=GOOD_PAIRS, echo=air, send=ground)
             ours.append(storm(load, ground, pid, own))
         if shutil.which("haproxy") is not None:
@@ -284,8 +274,7 @@ def reconnect_row(dark_s: float, rounds: int, own: Path) -> Row:
                     raise RuntimeError(reason.splitlines()[-1])
                 took_s.append(float(done.stdout))
     what = f"TLS and envelope, a frame read after {dark_s:g} s of darkness, worst of {rounds}"
-    target = f"<= {DARKNESS_TARGET_S:g} s"
-    return Row(what, f"{max(took_s):.2f} s", target=target, met=max(took_s) <= DARKNESS_TARGET_S)
+    return limited(what, "s", max(took_s), DARKNESS_TARGET_S)
 
 
 def rows(quick: bool = False) -> Iterable[Row]:

@@ -13,7 +13,6 @@ from up_cluster.config import ClusterConfig
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.proxy import Proxy
 from up_runner.config import RUNNER, RunnerConfig
-from up_runner.metrics import figures_of
 from up_runner.pool.pool import Pool
 from up_runner.pool_config import PoolConfig
 from up_runner.runner import Runner
@@ -154,7 +153,8 @@ def exported(folder):
     (folder / "run").mkdir()
     pool = Pool(reactor, config, folder, runner.instances, runner.instance_host)
     runner.server.counts["malformed"] += 1
-    pages = proxy.page() + text_of([*figures_of(runner.instances, runner.server), *pool.figures()])
+    figures = [*runner.instances.figures(), *runner.server.figures(), *pool.figures()]
+    pages = proxy.page() + text_of(figures)
     return {line.split()[2] for line in pages.splitlines() if line.startswith("# TYPE")}
 
 

@@ -14,6 +14,7 @@ struct Flight {
   AttitudeFilter filter{calibration};
   MovingImu imu;
 
+  explicit Flight(double seconds = 0) { fly(seconds); }
   void slot(double p = 0, double q = 0, double r = 0) {
     imu.turn(p, q, r);
     filter.on_sample(imu.sample());

@@ -89,6 +89,10 @@ class PilotBench {
       if (on_slot) on_slot();
     }
   }
+  void move(Channel channel, uint16_t width_us, uint32_t ms) {
+    sticks[channel] = width_us;
+    run(ms);
+  }
   /** Runs slots until it is so, at most `ms`; returns the ms that it took. */
   uint32_t run_until(const std::function<bool()>& is_so, uint32_t ms) {
     for (uint32_t passed = 0; passed < ms; passed += 2) {
@@ -102,30 +106,27 @@ class PilotBench {
   Ticks throttle_us() const { return static_cast<Ticks>(authority.throttle() / 2); }
   /** Switch low to high after a low that counts: arms. */
   void flick_aux2() {
-    sticks[AUX2] = 1000;
-    run(400);
-    sticks[AUX2] = 2000;
-    run(400);
+    move(AUX2, 1000, 400);
+    move(AUX2, 2000, 400);
   }
   /** A valid receiver, throttle low, the switch at a position. */
   void fly(uint16_t aux1_us, bool is_armed = true) {
-    sticks[AUX1] = aux1_us;
-    run(100);
+    move(AUX1, aux1_us, 100);
     if (is_armed) flick_aux2();
   }
   Reason output(uint16_t ailerons, uint16_t throttle, uint32_t age_us = 20000) {
     const uint16_t pulses[OUTPUTS] = {ailerons, 1500, throttle, 1500};
-    return authority.accept_outputs(pulses, age_us, clock_us());
+    return authority.accept_outputs(pulses, age_us);
   }
   Reason demand(int16_t roll_cdeg, uint16_t throttle, uint16_t lifetime_ms = 250) {
-    return authority.accept_setpoint(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms, clock_us());
+    return authority.accept_setpoint(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms);
   }
   Reason return_by(int16_t roll_cdeg, uint16_t throttle, uint16_t lifetime_ms = 250) {
-    return authority.accept_return(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms, clock_us());
+    return authority.accept_return(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms);
   }
-  Reason ask(char letter) { return authority.request_mode(letter, clock_us()); }
-  Reason arm() { return authority.arm(clock_us()); }
-  Reason disarm() { return authority.disarm(clock_us()); }
+  Reason ask(char letter) { return authority.request_mode(letter); }
+  Reason arm() { return authority.arm(); }
+  Reason disarm() { return authority.disarm(); }
 
   Calibration calibration;
   Profile profile;
@@ -151,6 +152,11 @@ class PilotBench {
     }
     next_frame_us += frame_us;
   }
+};
+
+/** One that flies from the beginning, with the switch at a position. */
+struct FlyingBench : PilotBench {
+  explicit FlyingBench(uint16_t aux1_us, bool is_armed = true) { fly(aux1_us, is_armed); }
 };
 
 }  // namespace raspilot

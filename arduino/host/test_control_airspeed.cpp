@@ -30,8 +30,7 @@ Airspeed wrong_by(double error_m_s) {
 /** The greatest tilt error in a turn at this bank; `pitch_up_deg_s` begins a climb for 2 s. */
 double error_deg(double bank_deg, double seconds, const Airspeed& flown, const Airspeed& sent,
                  double pitch_up_deg_s = 0) {
-  Flight flight;
-  flight.fly(4);
+  Flight flight(4);
   roll_to(flight, bank_deg);
   double greatest = 0;
   for (int slot = 0; slot < seconds * 500; ++slot) {

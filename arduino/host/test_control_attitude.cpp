@@ -22,8 +22,7 @@ TEST_CASE("attitude is there 200 ms after the first sample, whatever it is") {
 }
 
 TEST_CASE("axes have the signs of the air: right wing down, nose up, clockwise") {
-  Flight flight;
-  flight.fly(3);
+  Flight flight(3);
   flight.fly(0.5, 40, 0, 0);
   CHECK(flight.roll_deg() == doctest::Approx(20).epsilon(0.01));
   CHECK(flight.filter.attitude().roll_rate_16 == doctest::Approx(640).epsilon(0.02));
@@ -41,8 +40,7 @@ TEST_CASE("axes have the signs of the air: right wing down, nose up, clockwise")
 TEST_CASE("two minutes at 30 degrees of bank stay within 3 degrees at any speed") {
   for (double bias : {0.05, -0.05}) {
     for (double speed_m_s : {10.0, 15.0, 25.0}) {
-      Flight flight;
-      flight.fly(3);
+      Flight flight(3);
       for (int axis = 0; axis < 3; ++axis) flight.imu.bias_deg_s[axis] = bias;
       roll_to(flight, 30);
       double greatest = 0;
@@ -64,8 +62,7 @@ TEST_CASE("two minutes at 15, 20 and 30 degrees of bank stay within 2 degrees at
     for (double speed_m_s : {10.0, 13.0, 16.0}) {
       CAPTURE(bank_deg);
       CAPTURE(speed_m_s);
-      Flight flight;
-      flight.fly(3);
+      Flight flight(3);
       for (int axis = 0; axis < 3; ++axis) flight.imu.bias_deg_s[axis] = 0.05 - 0.05 * axis;
       roll_to(flight, bank_deg);
       double greatest = 0;
@@ -81,8 +78,7 @@ TEST_CASE("two minutes at 15, 20 and 30 degrees of bank stay within 2 degrees at
 TEST_CASE("a bias of the yaw gyro locks nothing out: level and still, attitude comes back") {
   for (double bias_deg_s : {3.0, -4.0}) {
     CAPTURE(bias_deg_s);
-    Flight flight;
-    flight.fly(3);
+    Flight flight(3);
     // It appears without having been measured, and the attitude is wrong by 39 degrees.
     flight.imu.bias_deg_s[2] = bias_deg_s;
     AttitudeState state = flight.filter.state();
@@ -97,8 +93,7 @@ TEST_CASE("a bias of the yaw gyro locks nothing out: level and still, attitude c
 }
 
 TEST_CASE("a gyro that warms up by 4 deg/s in ten minutes leaves attitude within 3 degrees") {
-  Flight flight;
-  flight.fly(3);
+  Flight flight(3);
   double greatest = 0;
   for (int second = 0; second < 600; ++second) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -115,8 +110,7 @@ TEST_CASE("a gyro that warms up by 4 deg/s in ten minutes leaves attitude within
 }
 
 TEST_CASE("a push that feels like more than 1 g tilts nothing") {
-  Flight flight;
-  flight.fly(4);
+  Flight flight(4);
   // 0.6 g for 10 s: a launch by a bungee, or a dive.
   const double force[3] = {0.6, 0, -1};
   for (int slot = 0; slot < 5000; ++slot) flight.slot_with_force(0, 0, 0, force);
@@ -124,8 +118,7 @@ TEST_CASE("a push that feels like more than 1 g tilts nothing") {
 }
 
 TEST_CASE("a long acceleration along the nose tilts it little") {
-  Flight flight;
-  flight.fly(4);
+  Flight flight(4);
   // 0.3 g for 3 s: a throttle opened.
   const double force[3] = {0.3, 0, -1};
   for (int slot = 0; slot < 1500; ++slot) flight.slot_with_force(0, 0, 0, force);
@@ -133,8 +126,7 @@ TEST_CASE("a long acceleration along the nose tilts it little") {
 }
 
 TEST_CASE("the gyro's bias in level flight is learned") {
-  Flight flight;
-  flight.fly(3);
+  Flight flight(3);
   flight.imu.bias_deg_s[0] = 0.3;
   flight.imu.bias_deg_s[1] = -0.3;
   flight.fly(240);
@@ -164,8 +156,7 @@ TEST_CASE("the yaw of a minute's calm drifts by less than two degrees") {
 }
 
 TEST_CASE("yaw goes round the circle as heading, banked too") {
-  Flight flight;
-  flight.fly(3);
+  Flight flight(3);
   roll_to(flight, 45);
   const double before_deg = flight.yaw_deg() - flight.imu.yaw_deg;
   turn(flight, 45, 15, 20);

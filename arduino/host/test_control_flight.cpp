@@ -41,6 +41,7 @@ struct Flight {
     stick(RUDDER, 1500);
     demand.throttle = us_to_ticks(1400);
   }
+  explicit Flight(const Gains& tuned) : Flight() { tune(tuned); }
   void tune(const Gains& changed) {
     gains = changed;
     controller.on_gains();
@@ -102,8 +103,7 @@ TEST_CASE("the throttle is what the authority says, in every mode") {
 }
 
 TEST_CASE("FBW: the surfaces go against bank, pitch and rotation") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 2.0f));
+  Flight flight(only_p(1.0f, 2.0f));
   flight.attitude = attitude_of(1000, 0, 0, 0, 0, 0);
   // 10 degrees demand -20 deg/s, at 1.25 us a unit.
   CHECK(flight.us(AILERONS) == doctest::Approx(1475).epsilon(0.001));
@@ -115,8 +115,7 @@ TEST_CASE("FBW: the surfaces go against bank, pitch and rotation") {
 }
 
 TEST_CASE("FBW: the sticks ask for bank and pitch up to the profile's limits") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 1.0f));
+  Flight flight(only_p(1.0f, 1.0f));
   flight.stick(AILERONS, 2000);
   flight.stick(ELEVATOR, 2000);
   flight.attitude = attitude_of(5000, 2000, 0, 0, 0, 0);
@@ -139,8 +138,7 @@ TEST_CASE("FBW: the sticks ask for bank and pitch up to the profile's limits") {
 }
 
 TEST_CASE("an angle asks for no faster rotation than its limit") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 50.0f));
+  Flight flight(only_p(1.0f, 50.0f));
   flight.attitude = attitude_of(-6000, 0, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500 + 120 * 1.25);
   flight.attitude = attitude_of(0, -4000, 0, 0, 0, 0);
@@ -148,8 +146,7 @@ TEST_CASE("an angle asks for no faster rotation than its limit") {
 }
 
 TEST_CASE("the way back from inverted flight is the shorter one") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 1.0f));
+  Flight flight(only_p(1.0f, 1.0f));
   flight.stick(AILERONS, 2000);
   flight.attitude = attitude_of(-17000, 0, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) < 1500);
@@ -159,8 +156,7 @@ TEST_CASE("the way back from inverted flight is the shorter one") {
 }
 
 TEST_CASE("a banked aircraft holds its nose by pitching with the turn") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 8.0f));
+  Flight flight(only_p(1.0f, 8.0f));
   for (int bank_deg : {-49, -20, 20, 49}) {
     CAPTURE(bank_deg);
     flight.stick(AILERONS, 1500 + bank_deg * 10);
@@ -177,8 +173,7 @@ TEST_CASE("a banked aircraft holds its nose by pitching with the turn") {
 }
 
 TEST_CASE("beyond 90 degrees of bank the aircraft rolls first and does not pull") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 8.0f));
+  Flight flight(only_p(1.0f, 8.0f));
   for (int bank_deg : {-170, -120, -91, 91, 120, 170, 180}) {
     CAPTURE(bank_deg);
     flight.attitude = attitude_of(bank_deg * 100, -3000, 0, 0, 0, 200);
@@ -191,8 +186,7 @@ TEST_CASE("beyond 90 degrees of bank the aircraft rolls first and does not pull"
 }
 
 TEST_CASE("RATE: the stick is a rotation, and attitude does not matter") {
-  Flight flight;
-  flight.tune(only_p(2.0f, 9.0f));
+  Flight flight(only_p(2.0f, 9.0f));
   flight.demand.mode = Mode::RATE;
   flight.stick(AILERONS, 2000);
   flight.stick(ELEVATOR, 1250);
@@ -205,8 +199,7 @@ TEST_CASE("RATE: the stick is a rotation, and attitude does not matter") {
 }
 
 TEST_CASE("SETPOINT: the Raspberry Pi's attitude, within the limits of FBW") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 1.0f));
+  Flight flight(only_p(1.0f, 1.0f));
   flight.demand.mode = Mode::SETPOINT;
   flight.stick(AILERONS, 2000);
   flight.demand.asked.setpoint = {-2000, 1000, 0, 0};
@@ -241,8 +234,7 @@ TEST_CASE("OUTPUT: the Raspberry Pi's surfaces, through the servos' directions l
 }
 
 TEST_CASE("the rudder is stick plus damper: a steady turn passes, swinging does not") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 1.0f));
+  Flight flight(only_p(1.0f, 1.0f));
   flight.stick(RUDDER, 1600);
   flight.attitude = Attitude();
   CHECK(flight.us(RUDDER) == 1600);
@@ -255,8 +247,7 @@ TEST_CASE("the rudder is stick plus damper: a steady turn passes, swinging does 
 }
 
 TEST_CASE("no heading is held: yaw itself never moves the rudder") {
-  Flight flight;
-  flight.tune(only_p(3.0f, 9.0f));
+  Flight flight(only_p(3.0f, 9.0f));
   for (int yaw = -18000; yaw <= 18000; yaw += 500) {
     flight.attitude.yaw_cdeg = static_cast<int16_t>(yaw);
     CHECK(flight.us(RUDDER) == 1500);
@@ -351,8 +342,7 @@ TEST_CASE("from FBW to SETPOINT, into the circle and back the surfaces do not ju
 }
 
 TEST_CASE("gains fly within five slots of their change") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 1.0f));
+  Flight flight(only_p(1.0f, 1.0f));
   flight.attitude = attitude_of(0, 0, 0, -20 * 16, -20 * 16, 0);
   CHECK(flight.us(AILERONS) == 1525);
   flight.gains = only_p(2.0f, 1.0f);
@@ -398,8 +388,7 @@ TEST_CASE("no stick, attitude or gain lets a servo out of its end points") {
 }
 
 TEST_CASE("RETURN: the set-point within FBW's limits, the rudder without its stick") {
-  Flight flight;
-  flight.tune(only_p(1.0f, 2.0f));
+  Flight flight(only_p(1.0f, 2.0f));
   flight.demand.mode = Mode::RETURN;
   flight.demand.is_failsafe = true;
   flight.stick(RUDDER, 1900);

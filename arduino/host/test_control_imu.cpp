@@ -100,8 +100,7 @@ TEST_CASE("a turn that begins between two still seconds does not count as still"
 }
 
 TEST_CASE("a copied, a silent or a broken IMU is invalid within 100 ms") {
-  Flight flight;
-  flight.fly(2);
+  Flight flight(2);
   CHECK(flight.filter.is_valid());
   SUBCASE("the same sample again and again") {
     const ImuSample sample = flight.imu.sample();
@@ -136,8 +135,7 @@ TEST_CASE("a copied, a silent or a broken IMU is invalid within 100 ms") {
 
 TEST_CASE("a roll beyond 1000 deg/s is flown through; a gyro that stays at its end stop is broken") {
   for (double rate_deg_s : {1300.0, -1300.0}) {
-    Flight flight;
-    flight.fly(3);
+    Flight flight(3);
     // The fastest roll that may begin within 20 ms.
     for (int slot = 1; slot <= 10; ++slot) flight.slot(rate_deg_s * slot / 10);
     for (int slot = 0; slot < 200; ++slot) {
@@ -151,8 +149,7 @@ TEST_CASE("a roll beyond 1000 deg/s is flown through; a gyro that stays at its e
 }
 
 TEST_CASE("one good sample among missing ones does not make the IMU valid") {
-  Flight flight;
-  flight.fly(2);
+  Flight flight(2);
   flight.miss(0.1);
   for (int round = 0; round < 20; ++round) {
     flight.slot();
@@ -162,8 +159,7 @@ TEST_CASE("one good sample among missing ones does not make the IMU valid") {
 }
 
 TEST_CASE("samples that were missed are made up for") {
-  Flight flight;
-  flight.fly(3);
+  Flight flight(3);
   std::mt19937 random(3);
   for (int slot = 0; slot < 500; ++slot) {
     if (random() % 3 == 0) {
@@ -178,8 +174,7 @@ TEST_CASE("samples that were missed are made up for") {
 }
 
 TEST_CASE("an IMU that returns after a long loss finds gravity again") {
-  Flight flight;
-  flight.fly(2);
+  Flight flight(2);
   flight.miss(1.0);
   flight.imu.set(50, -10);
   flight.fly(0.1);
@@ -263,8 +258,7 @@ TEST_CASE("`e` 0 twice says the same again, and not beyond 15 degrees") {
 TEST_CASE("after seconds without samples in a turn down is found without the force of the turn") {
   for (double bank_deg : {20.0, -42.0, 55.0}) {
     CAPTURE(bank_deg);
-    Flight flight;
-    flight.fly(2);
+    Flight flight(2);
     roll_to(flight, bank_deg);
     turn(flight, bank_deg, 13, 2);
     flight.miss(3);
@@ -277,8 +271,7 @@ TEST_CASE("after seconds without samples in a turn down is found without the for
 }
 
 TEST_CASE("down that was found while the airspeed rose is right within three seconds") {
-  Flight flight;
-  flight.fly(2);
+  Flight flight(2);
   flight.miss(3);
   const double dive[3] = {0.4, 0, -1};
   for (int slot = 0; slot < 100; ++slot) flight.slot_with_force(0, 0, 0, dive);

@@ -10,10 +10,8 @@ uint8_t vetoes(const PilotBench& bench) { return bench.authority.vetoes(); }
 
 /** The switch moves up after a low that counts; returns after `ms`. */
 void raise_aux2(PilotBench& bench, uint32_t ms) {
-  bench.sticks[AUX2] = 1000;
-  bench.run(500);
-  bench.sticks[AUX2] = 2000;
-  bench.run(ms);
+  bench.move(AUX2, 1000, 500);
+  bench.move(AUX2, 2000, ms);
 }
 
 }  // namespace
@@ -30,24 +28,19 @@ TEST_CASE("pilot arming: an edge of AUX2 from low to high arms after 300 ms") {
 
 TEST_CASE("pilot arming: AUX2 high from the beginning does not count as an edge") {
   PilotBench bench;
-  bench.sticks[AUX2] = 2000;
-  bench.run(5000);
+  bench.move(AUX2, 2000, 5000);
   CHECK_FALSE(bench.authority.is_armed());
   CHECK(vetoes(bench) == 0);
 }
 
 TEST_CASE("pilot arming: a low or a high that is shorter than 300 ms does not count") {
   PilotBench bench;
-  bench.sticks[AUX2] = 2000;
-  bench.run(1000);
-  bench.sticks[AUX2] = 1000;
-  bench.run(280);
-  bench.sticks[AUX2] = 2000;
-  bench.run(2000);
+  bench.move(AUX2, 2000, 1000);
+  bench.move(AUX2, 1000, 280);
+  bench.move(AUX2, 2000, 2000);
   CHECK_FALSE(bench.authority.is_armed());
   raise_aux2(bench, 280);
-  bench.sticks[AUX2] = 1000;
-  bench.run(2000);
+  bench.move(AUX2, 1000, 2000);
   CHECK_FALSE(bench.authority.is_armed());
 }
 
@@ -55,8 +48,7 @@ TEST_CASE("pilot arming: a trembling switch is not debounced into an edge") {
   PilotBench bench;
   bench.run(500);
   for (int i = 0; i < 60; ++i) {
-    bench.sticks[AUX2] = i & 1 ? 1000 : 2000;
-    bench.run(100);
+    bench.move(AUX2, i & 1 ? 1000 : 2000, 100);
     CHECK_FALSE(bench.authority.is_armed());
   }
 }
@@ -64,14 +56,11 @@ TEST_CASE("pilot arming: a trembling switch is not debounced into an edge") {
 TEST_CASE("pilot arming: the middle of AUX2 moves nothing") {
   PilotBench bench;
   bench.run(500);
-  bench.sticks[AUX2] = 1515;
-  bench.run(1000);
+  bench.move(AUX2, 1515, 1000);
   CHECK_FALSE(bench.authority.is_armed());
-  bench.sticks[AUX2] = 1530;
-  bench.run(400);
+  bench.move(AUX2, 1530, 400);
   CHECK(bench.authority.is_armed());
-  bench.sticks[AUX2] = 1485;
-  bench.run(1000);
+  bench.move(AUX2, 1485, 1000);
   CHECK(bench.authority.is_armed());
 }
 
@@ -96,7 +85,7 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not 
     bit = VETO_PROFILE_INVALID;
   }
   SUBCASE("the Raspberry Pi's") {
-    bench.on_slot = [&] { bench.authority.accept_veto(true, bench.clock_us()); };
+    bench.on_slot = [&] { bench.authority.accept_veto(true); };
     bit = VETO_RASPBERRY_PI;
   }
   raise_aux2(bench, 500);
@@ -105,7 +94,7 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not 
   CHECK(bench.arm() != Reason::NONE);
   CHECK_FALSE(bench.authority.is_armed());
   bench.on_slot = nullptr;
-  bench.authority.accept_veto(false, bench.clock_us());
+  bench.authority.accept_veto(false);
   bench.sticks[THROTTLE] = 1000;
   bench.is_imu_valid = true;
   bench.is_calibrating = bench.is_profile_broken = false;
@@ -118,8 +107,7 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not 
 
 TEST_CASE("pilot arming: a receiver that is off or in its own failsafe vetoes") {
   PilotBench bench;
-  bench.sticks[AUX2] = 2000;
-  bench.run(1000);
+  bench.move(AUX2, 2000, 1000);
   REQUIRE(vetoes(bench) == 0);
   SUBCASE("off") { bench.is_on = false; }
   SUBCASE("one channel out of range") { bench.sticks[RUDDER] = 2200; }
@@ -132,8 +120,7 @@ TEST_CASE("pilot arming: a receiver that is off or in its own failsafe vetoes") 
 
 TEST_CASE("pilot arming: a Command arms when there is no veto") {
   PilotBench bench;
-  bench.sticks[AUX2] = 2000;
-  bench.run(1000);
+  bench.move(AUX2, 2000, 1000);
   Reason reason = Reason::NONE;
   SUBCASE("nothing does") {}
   SUBCASE("throttle") {
@@ -171,9 +158,8 @@ TEST_CASE("pilot arming: a Command cannot arm before the receiver was received")
 
 TEST_CASE("pilot arming: the Raspberry Pi's veto ends after a second without another") {
   PilotBench bench;
-  bench.sticks[AUX2] = 2000;
-  bench.run(1000);
-  bench.authority.accept_veto(true, bench.clock_us());
+  bench.move(AUX2, 2000, 1000);
+  bench.authority.accept_veto(true);
   bench.run(990);
   CHECK(vetoes(bench) == VETO_RASPBERRY_PI);
   CHECK(bench.arm() == Reason::VETO);
@@ -182,11 +168,9 @@ TEST_CASE("pilot arming: the Raspberry Pi's veto ends after a second without ano
 }
 
 TEST_CASE("pilot arming: disarmed, the motor gets 1000 us whatever stick and Raspberry Pi do") {
-  PilotBench bench;
-  bench.fly(2000, false);
+  FlyingBench bench(2000, false);
   for (uint16_t throttle = 885; throttle <= 2115; throttle = static_cast<uint16_t>(throttle + 30)) {
-    bench.sticks[THROTTLE] = throttle;
-    bench.run(40);
+    bench.move(THROTTLE, throttle, 40);
     CHECK(bench.output(1500, 1800) != Reason::NONE);
     CHECK(bench.demand(0, 1800) != Reason::NONE);
     CHECK(bench.throttle_us() == 1000);
@@ -194,31 +178,24 @@ TEST_CASE("pilot arming: disarmed, the motor gets 1000 us whatever stick and Ras
 }
 
 TEST_CASE("pilot arming: armed, the throttle is the stick's") {
-  PilotBench bench;
-  bench.fly(1000);
+  FlyingBench bench(1000);
   REQUIRE(bench.authority.is_armed());
   for (uint16_t throttle : {uint16_t{1000}, uint16_t{1404}, uint16_t{2000}, uint16_t{1100}}) {
-    bench.sticks[THROTTLE] = throttle;
-    bench.run(60);
+    bench.move(THROTTLE, throttle, 60);
     CHECK(bench.throttle_us() == throttle);
   }
 }
 
 TEST_CASE("pilot arming: the ground disarms only after 2 s of low throttle that was seen") {
-  PilotBench bench;
-  bench.fly(1000);
-  bench.sticks[THROTTLE] = 1500;
-  bench.run(3000);
+  FlyingBench bench(1000);
+  bench.move(THROTTLE, 1500, 3000);
   CHECK(bench.disarm() == Reason::THROTTLE_NOT_LOW);
-  bench.sticks[THROTTLE] = 1000;
-  bench.run(1900);
+  bench.move(THROTTLE, 1000, 1900);
   CHECK(bench.disarm() == Reason::THROTTLE_NOT_LOW);
   CHECK(bench.authority.is_armed());
   SUBCASE("the stick is raised in between") {
-    bench.sticks[THROTTLE] = 1200;
-    bench.run(40);
-    bench.sticks[THROTTLE] = 1000;
-    bench.run(1900);
+    bench.move(THROTTLE, 1200, 40);
+    bench.move(THROTTLE, 1000, 1900);
     CHECK(bench.disarm() == Reason::THROTTLE_NOT_LOW);
   }
   SUBCASE("the receiver is lost: the stick is unknown") {
@@ -238,19 +215,15 @@ TEST_CASE("pilot arming: the ground disarms only after 2 s of low throttle that 
 }
 
 TEST_CASE("pilot arming: the time of low throttle does not wrap") {
-  PilotBench bench;
-  bench.fly(1000);
+  FlyingBench bench(1000);
   bench.run(70000);
   CHECK(bench.disarm() == Reason::NONE);
 }
 
 TEST_CASE("pilot arming: AUX2 low for 300 ms disarms, whatever the throttle") {
-  PilotBench bench;
-  bench.fly(2000);
-  bench.sticks[THROTTLE] = 1900;
-  bench.run(500);
-  bench.sticks[AUX2] = 1000;
-  bench.run(280);
+  FlyingBench bench(2000);
+  bench.move(THROTTLE, 1900, 500);
+  bench.move(AUX2, 1000, 280);
   CHECK(bench.authority.is_armed());
   CHECK(bench.throttle_us() == 1900);
   bench.run(60);
@@ -259,10 +232,8 @@ TEST_CASE("pilot arming: AUX2 low for 300 ms disarms, whatever the throttle") {
 }
 
 TEST_CASE("pilot arming: neither a lost IMU, a lost receiver nor a veto disarms") {
-  PilotBench bench;
-  bench.fly(1500);
-  bench.sticks[THROTTLE] = 1600;
-  bench.run(100);
+  FlyingBench bench(1500);
+  bench.move(THROTTLE, 1600, 100);
   SUBCASE("IMU") { bench.is_imu_valid = false; }
   SUBCASE("receiver") { bench.is_on = false; }
   SUBCASE("both") { bench.is_on = bench.is_imu_valid = false; }
@@ -272,7 +243,7 @@ TEST_CASE("pilot arming: neither a lost IMU, a lost receiver nor a veto disarms"
   }
   SUBCASE("vetoes") {
     bench.is_calibrating = bench.is_profile_broken = true;
-    bench.on_slot = [&] { bench.authority.accept_veto(true, bench.clock_us()); };
+    bench.on_slot = [&] { bench.authority.accept_veto(true); };
   }
   bench.run(10000);
   CHECK(bench.authority.is_armed());
@@ -285,16 +256,14 @@ TEST_CASE("pilot arming: the return of a receiver does not count as an edge") {
     bench.is_on = false;
   }
   SUBCASE("its failsafe says low, its return high") {
-    bench.sticks[AUX2] = 2000;
-    bench.run(1000);
+    bench.move(AUX2, 2000, 1000);
     bench.sticks[THROTTLE] = 890;
     bench.sticks[AUX2] = 1000;
   }
   bench.run(1000);
   bench.is_on = true;
   bench.sticks[THROTTLE] = 1000;
-  bench.sticks[AUX2] = 2000;
-  bench.run(2000);
+  bench.move(AUX2, 2000, 2000);
   CHECK(bench.authority.has_receiver());
   CHECK_FALSE(bench.authority.is_armed());
   raise_aux2(bench, 400);
@@ -307,8 +276,7 @@ TEST_CASE("pilot arming: a low before a loss of 200 ms and a high after it do no
   bench.is_on = false;
   bench.run(200);
   bench.is_on = true;
-  bench.sticks[AUX2] = 2000;
-  bench.run(1000);
+  bench.move(AUX2, 2000, 1000);
   CHECK_FALSE(bench.authority.is_armed());
 }
 

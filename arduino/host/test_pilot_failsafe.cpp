@@ -7,22 +7,21 @@ using namespace raspilot;
 namespace {
 
 /** Armed, stick at 1600 us, failsafe throttle 1250 us. */
-PilotBench& fly(PilotBench& bench, uint16_t aux1_us) {
-  bench.profile.throttle_failsafe_us = 1250;
-  bench.fly(aux1_us);
-  REQUIRE(bench.authority.is_armed());
-  bench.sticks[THROTTLE] = 1600;
-  bench.sticks[AILERONS] = 1700;
-  bench.run(200);
-  return bench;
-}
+struct FailsafeBench : PilotBench {
+  explicit FailsafeBench(uint16_t aux1_us) {
+    profile.throttle_failsafe_us = 1250;
+    fly(aux1_us);
+    REQUIRE(authority.is_armed());
+    sticks[THROTTLE] = 1600;
+    move(AILERONS, 1700, 200);
+  }
+};
 
 }  // namespace
 
 TEST_CASE("pilot failsafe: a lost receiver acts between 500 ms and a second, sticks hold before") {
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}, uint16_t{2000}}) {
-    PilotBench bench;
-    fly(bench, aux1);
+    FailsafeBench bench(aux1);
     const Mode before = bench.authority.flown_mode();
     bench.is_on = false;
     bench.run(500);
@@ -40,18 +39,15 @@ TEST_CASE("pilot failsafe: a lost receiver acts between 500 ms and a second, sti
 }
 
 TEST_CASE("pilot failsafe: loss is seen within 100 ms") {
-  PilotBench bench;
-  fly(bench, 1500);
+  FailsafeBench bench(1500);
   bench.is_on = false;
   const auto is_seen = [&] { return !bench.authority.has_receiver(); };
   CHECK(bench.run_until(is_seen, 1000) <= 110);
 }
 
 TEST_CASE("pilot failsafe: one channel that is dead or out of range is a lost receiver") {
-  PilotBench bench;
-  fly(bench, 1500);
-  bench.sticks[ELEVATOR] = 2200;
-  bench.run(60);
+  FailsafeBench bench(1500);
+  bench.move(ELEVATOR, 2200, 60);
   CHECK_FALSE(bench.authority.has_receiver());
   CHECK_FALSE(bench.authority.is_failsafe());
   bench.run(600);
@@ -59,8 +55,7 @@ TEST_CASE("pilot failsafe: one channel that is dead or out of range is a lost re
 }
 
 TEST_CASE("pilot failsafe: a receiver in its own failsafe triggers failsafe immediately") {
-  PilotBench bench;
-  fly(bench, 1500);
+  FailsafeBench bench(1500);
   bench.sticks[THROTTLE] = 890;
   const auto acts = [&] { return bench.authority.is_failsafe(); };
   CHECK(bench.run_until(acts, 100) <= 30);
@@ -69,20 +64,16 @@ TEST_CASE("pilot failsafe: a receiver in its own failsafe triggers failsafe imme
 }
 
 TEST_CASE("pilot failsafe: the threshold of the receiver's own failsafe is the profile's") {
-  PilotBench bench;
+  FailsafeBench bench(1500);
   bench.profile.throttle_lost_us = 960;
-  fly(bench, 1500);
-  bench.sticks[THROTTLE] = 962;
-  bench.run(100);
+  bench.move(THROTTLE, 962, 100);
   CHECK(bench.authority.has_receiver());
-  bench.sticks[THROTTLE] = 940;
-  bench.run(100);
+  bench.move(THROTTLE, 940, 100);
   CHECK(bench.authority.is_failsafe());
 }
 
 TEST_CASE("pilot failsafe: the return gives the mode of the switch as it stands") {
-  PilotBench bench;
-  fly(bench, 1500);
+  FailsafeBench bench(1500);
   bench.is_on = false;
   bench.run(3000);
   REQUIRE(bench.authority.is_failsafe());
@@ -96,8 +87,7 @@ TEST_CASE("pilot failsafe: the return gives the mode of the switch as it stands"
 }
 
 TEST_CASE("pilot failsafe: channels that the receiver moves in its failsafe do not switch") {
-  PilotBench bench;
-  fly(bench, 2000);
+  FailsafeBench bench(2000);
   REQUIRE(bench.ask('r') == Reason::NONE);
   bench.sticks[THROTTLE] = 890;
   bench.sticks[AUX1] = bench.sticks[AUX2] = 1000;
@@ -114,13 +104,11 @@ TEST_CASE("pilot failsafe: channels that the receiver moves in its failsafe do n
 }
 
 TEST_CASE("pilot failsafe: the Raspberry Pi is ignored, and its earlier requests end") {
-  PilotBench bench;
-  fly(bench, 2000);
+  FailsafeBench bench(2000);
   REQUIRE(bench.output(1900, 1800) == Reason::NONE);
   bench.run(2);
   REQUIRE(bench.throttle_us() == 1800);
-  bench.sticks[THROTTLE] = 890;
-  bench.run(40);
+  bench.move(THROTTLE, 890, 40);
   REQUIRE(bench.authority.is_failsafe());
   CHECK(bench.throttle_us() == 1250);
   CHECK(bench.output(1900, 1800) == Reason::RECEIVER_INVALID);
@@ -128,80 +116,67 @@ TEST_CASE("pilot failsafe: the Raspberry Pi is ignored, and its earlier requests
   CHECK(bench.ask('u') == Reason::RECEIVER_INVALID);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.authority.mode() == Mode::FBW);
-  bench.sticks[THROTTLE] = 1600;
-  bench.run(40);
+  bench.move(THROTTLE, 1600, 40);
   REQUIRE_FALSE(bench.authority.is_failsafe());
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.throttle_us() == 1600);
 }
 
 TEST_CASE("pilot failsafe: an Output is not followed while the receiver is lost") {
-  PilotBench bench;
-  fly(bench, 2000);
+  FailsafeBench bench(2000);
   bench.on_slot = [&] { bench.output(1900, 1800); };
   bench.run(100);
   REQUIRE(bench.authority.flown_mode() == Mode::OUTPUT);
-  bench.sticks[ELEVATOR] = 2200;
-  bench.run(40);
+  bench.move(ELEVATOR, 2200, 40);
   CHECK_FALSE(bench.authority.is_failsafe());
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.throttle_us() == 1600);
 }
 
 TEST_CASE("pilot failsafe: after more than 5 s the throttle waits for a low stick") {
-  PilotBench bench;
-  fly(bench, 1500);
+  FailsafeBench bench(1500);
   bench.is_on = false;
   bench.run(5300);
-  CHECK(bench.authority.is_throttle_latched());
+  CHECK(bench.authority.state().is_throttle_latched);
   bench.is_on = true;
   bench.run(500);
   CHECK_FALSE(bench.authority.is_failsafe());
   CHECK(bench.throttle_us() == 1250);
   SUBCASE("not even an explicit demand at AUTO lifts it") {
-    bench.sticks[AUX1] = 2000;
-    bench.run(60);
+    bench.move(AUX1, 2000, 60);
     CHECK(bench.output(1500, 1800) == Reason::NONE);
     CHECK(bench.throttle_us() == 1250);
     bench.run(300);
   }
-  bench.sticks[THROTTLE] = 1100;
-  bench.run(60);
+  bench.move(THROTTLE, 1100, 60);
   CHECK(bench.throttle_us() == 1250);
-  bench.sticks[THROTTLE] = 1000;
-  bench.run(60);
-  CHECK_FALSE(bench.authority.is_throttle_latched());
+  bench.move(THROTTLE, 1000, 60);
+  CHECK_FALSE(bench.authority.state().is_throttle_latched);
   CHECK(bench.throttle_us() == 1000);
-  bench.sticks[THROTTLE] = 1500;
-  bench.run(60);
+  bench.move(THROTTLE, 1500, 60);
   CHECK(bench.throttle_us() == 1500);
 }
 
 TEST_CASE("pilot failsafe: after less than 5 s the throttle returns to the stick immediately") {
-  PilotBench bench;
-  fly(bench, 1500);
+  FailsafeBench bench(1500);
   bench.is_on = false;
   bench.run(4800);
-  CHECK_FALSE(bench.authority.is_throttle_latched());
+  CHECK_FALSE(bench.authority.state().is_throttle_latched);
   bench.is_on = true;
   bench.run(60);
   CHECK(bench.throttle_us() == 1600);
 }
 
 TEST_CASE("pilot failsafe: its own failsafe latches the throttle too") {
-  PilotBench bench;
-  fly(bench, 1500);
-  bench.sticks[THROTTLE] = 890;
-  bench.run(5200);
-  CHECK(bench.authority.is_throttle_latched());
-  bench.sticks[THROTTLE] = 1600;
-  bench.run(100);
+  FailsafeBench bench(1500);
+  bench.move(THROTTLE, 890, 5200);
+  CHECK(bench.authority.state().is_throttle_latched);
+  bench.move(THROTTLE, 1600, 100);
   CHECK(bench.throttle_us() == 1250);
 }
 
 TEST_CASE("pilot failsafe: without an IMU: preset surfaces, the same throttle") {
-  PilotBench bench;
-  fly(bench, 1500);
+  FailsafeBench bench(1500);
   bench.is_on = bench.is_imu_valid = false;
   bench.run(1000);
   CHECK(bench.authority.is_failsafe());
@@ -229,7 +204,7 @@ TEST_CASE("pilot failsafe: before the first valid receiver no failsafe: level, w
     bench.run(10000);
     CHECK_FALSE(bench.authority.is_failsafe());
     CHECK_FALSE(bench.authority.is_armed());
-    CHECK_FALSE(bench.authority.is_throttle_latched());
+    CHECK_FALSE(bench.authority.state().is_throttle_latched);
     CHECK(bench.authority.switch_position() == SWITCH_UNKNOWN);
     CHECK_FALSE(bench.authority.is_auto());
     CHECK(bench.authority.mode() == Mode::FBW);

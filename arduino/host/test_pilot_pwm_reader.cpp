@@ -24,13 +24,15 @@ struct Lines {
   uint64_t now_us = 0;
 };
 
-/** An edge on an otherwise unused line: the first edge of all only shows the levels. */
-void wake(Lines& bench) {
-  bench.run_to(4000);
-  bench.lines.edge(8100, AUX2, true);
-  bench.lines.edge(8110, AUX2, false);
-  bench.run_to(8000);
-}
+/** After an edge on an otherwise unused line: the first edge of all only shows the levels. */
+struct AwakeLines : Lines {
+  AwakeLines() {
+    run_to(4000);
+    lines.edge(8100, AUX2, true);
+    lines.edge(8110, AUX2, false);
+    run_to(8000);
+  }
+};
 
 }  // namespace
 
@@ -76,8 +78,7 @@ TEST_CASE("pilot reader: six channels that rise at the same moment") {
 TEST_CASE("pilot reader: pulses count from 885 to 2115 us") {
   for (int width : {885, 2115, 884, 2116, 400, 2600}) {
     CAPTURE(width);
-    Lines bench;
-    wake(bench);
+    AwakeLines bench;
     bench.lines.pulse(30000, ELEVATOR, 1400);
     bench.lines.pulse(50000, ELEVATOR, width);
     bench.run_to(56000);
@@ -105,8 +106,7 @@ TEST_CASE("pilot reader: a lost channel is seen within 100 ms, alone") {
 
 TEST_CASE("pilot reader: a line that stays high or low is lost within 100 ms and keeps its value") {
   for (bool is_high : {false, true}) {
-    Lines bench;
-    wake(bench);
+    AwakeLines bench;
     for (uint64_t at_us = 20000; at_us <= 200000; at_us += 20000) {
       bench.lines.pulse(static_cast<double>(at_us), THROTTLE, 1700);
     }
@@ -121,8 +121,7 @@ TEST_CASE("pilot reader: a line that stays high or low is lost within 100 ms and
 
 TEST_CASE("pilot reader: a pulse longer than the wrap of the stamps is rejected") {
   for (double too_long_us : {32768 + 1500.0, 65536 + 1200.0, 2 * 65536 + 1500.0}) {
-    Lines bench;
-    wake(bench);
+    AwakeLines bench;
     bench.lines.pulse(30000, RUDDER, 1600);
     bench.lines.pulse(50000, RUDDER, too_long_us);
     bench.run_to(50000 + static_cast<uint64_t>(too_long_us) + 6000);
@@ -132,8 +131,7 @@ TEST_CASE("pilot reader: a pulse longer than the wrap of the stamps is rejected"
 }
 
 TEST_CASE("pilot reader: a measurement across a stalled loop is discarded") {
-  Lines bench;
-  wake(bench);
+  AwakeLines bench;
   bench.lines.pulse(30000, RUDDER, 1600);
   bench.run_to(38000);
   bench.lines.pulse(40000, RUDDER, 32768 + 1200.0);
@@ -142,8 +140,7 @@ TEST_CASE("pilot reader: a measurement across a stalled loop is discarded") {
 }
 
 TEST_CASE("pilot reader: a stall without edges does not hide how long a pulse was") {
-  Lines bench;
-  wake(bench);
+  AwakeLines bench;
   bench.lines.pulse(30000, RUDDER, 1600);
   bench.lines.pulse(40500, RUDDER, 32768 + 1200.0);
   bench.run_to(42000);
@@ -154,8 +151,7 @@ TEST_CASE("pilot reader: a stall without edges does not hide how long a pulse wa
 
 TEST_CASE("pilot reader: lost edges make no pulse") {
   SUBCASE("told: the fall came while the ring was full") {
-    Lines bench;
-    wake(bench);
+    AwakeLines bench;
     bench.lines.pulse(30000, AILERONS, 1100);
     bench.run_to(48000);
     bench.lines.edge(100000, AILERONS, true);
@@ -173,8 +169,7 @@ TEST_CASE("pilot reader: lost edges make no pulse") {
     CHECK(bench.us(AILERONS) == 1200);
   }
   SUBCASE("not told: fall and rise of two pulses") {
-    Lines bench;
-    wake(bench);
+    AwakeLines bench;
     bench.lines.pulse(30000, AILERONS, 1100);
     bench.lines.edge(100000, AILERONS, true);
     bench.lines.edge(2 * 71500, AILERONS, false);
@@ -192,8 +187,7 @@ TEST_CASE("pilot reader: lost edges make no pulse") {
 }
 
 TEST_CASE("pilot reader: a pulse cut in two by noise is taken back") {
-  Lines bench;
-  wake(bench);
+  AwakeLines bench;
   for (uint64_t at_us = 20000; at_us < 100000; at_us += 20000) {
     bench.lines.pulse(static_cast<double>(at_us), ELEVATOR, 1800);
   }
@@ -240,8 +234,7 @@ TEST_CASE("pilot reader: a storm on one pin fakes no pulse there and harms no ot
 TEST_CASE("pilot reader: cut pulses do not keep a channel alive, nor bring one to life") {
   for (bool was_alive : {false, true}) {
     CAPTURE(was_alive);
-    Lines bench;
-    wake(bench);
+    AwakeLines bench;
     for (uint64_t at_us = 20000; at_us < 200000 && was_alive; at_us += 20000) {
       bench.lines.pulse(static_cast<double>(at_us), RUDDER, 1600);
     }
@@ -261,8 +254,7 @@ TEST_CASE("pilot reader: cut pulses do not keep a channel alive, nor bring one t
 }
 
 TEST_CASE("pilot reader: one uncertain stamp of two keeps the value; the channel is alive") {
-  Lines bench;
-  wake(bench);
+  AwakeLines bench;
   for (uint64_t at_us = 20000; at_us < 400000; at_us += 20000) {
     const bool is_late = at_us > 60000;
     const uint64_t width_us = is_late ? 1503 : 1500;
@@ -297,8 +289,7 @@ TEST_CASE("pilot reader: an output follows each rise of a good channel once") {
 }
 
 TEST_CASE("pilot reader: noise between pulses raises no output") {
-  Lines bench;
-  wake(bench);
+  AwakeLines bench;
   for (uint64_t at_us = 20000; at_us < 60000; at_us += 20000) {
     bench.lines.pulse(static_cast<double>(at_us), AILERONS, 1500);
   }

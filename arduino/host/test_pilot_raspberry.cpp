@@ -5,8 +5,7 @@
 using namespace raspilot;
 
 TEST_CASE("pilot Raspberry Pi: an Output is followed for 250 ms, then FBW holds level") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.output(1723, 0) == Reason::NONE);
   bench.run(2);
   CHECK(bench.authority.mode() == Mode::OUTPUT);
@@ -20,8 +19,7 @@ TEST_CASE("pilot Raspberry Pi: an Output is followed for 250 ms, then FBW holds 
 }
 
 TEST_CASE("pilot Raspberry Pi: an Output of an orientation older than 100 ms is refused") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   CHECK(bench.output(1600, 0, 100001) == Reason::TOO_OLD);
   CHECK(bench.output(1600, 0, 0xFFFFFFFF) == Reason::TOO_OLD);
   bench.run(2);
@@ -30,8 +28,7 @@ TEST_CASE("pilot Raspberry Pi: an Output of an orientation older than 100 ms is 
 }
 
 TEST_CASE("pilot Raspberry Pi: its authority needs AUTO, receiver, IMU, and a motor armed") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   Reason reason = Reason::NONE;
   SUBCASE("all is well") {}
   SUBCASE("switch") {
@@ -63,10 +60,8 @@ TEST_CASE("pilot Raspberry Pi: its authority needs AUTO, receiver, IMU, and a mo
 }
 
 TEST_CASE("pilot Raspberry Pi: an IMU that is lost ends an Output that lives") {
-  PilotBench bench;
-  bench.fly(2000);
-  bench.sticks[THROTTLE] = 1300;
-  bench.run(60);
+  FlyingBench bench(2000);
+  bench.move(THROTTLE, 1300, 60);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
   bench.is_imu_valid = false;
   bench.run(2);
@@ -76,8 +71,7 @@ TEST_CASE("pilot Raspberry Pi: an IMU that is lost ends an Output that lives") {
 }
 
 TEST_CASE("pilot Raspberry Pi: a Setpoint lives as long as it says, 1 to 250 ms") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   for (uint16_t lifetime_ms : {uint16_t{250}, uint16_t{100}, uint16_t{20}}) {
     REQUIRE(bench.demand(-1234, 0, lifetime_ms) == Reason::NONE);
     bench.run(2);
@@ -91,8 +85,7 @@ TEST_CASE("pilot Raspberry Pi: a Setpoint lives as long as it says, 1 to 250 ms"
 }
 
 TEST_CASE("pilot Raspberry Pi: no Setpoint lives longer than 250 ms, nor one of no lifetime") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.demand(-1234, 0, 65535) == Reason::NONE);
   bench.run(250);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
@@ -101,10 +94,8 @@ TEST_CASE("pilot Raspberry Pi: no Setpoint lives longer than 250 ms, nor one of 
 }
 
 TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living demand names one") {
-  PilotBench bench;
-  bench.fly(2000);
-  bench.sticks[THROTTLE] = 1300;
-  bench.run(60);
+  FlyingBench bench(2000);
+  bench.move(THROTTLE, 1300, 60);
   CHECK(bench.output(1500, 0) == Reason::NONE);
   CHECK(bench.throttle_us() == 1300);
   CHECK(bench.output(1500, 1777) == Reason::NONE);
@@ -120,8 +111,7 @@ TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living deman
 }
 
 TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it requests them") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
   REQUIRE(bench.ask('f') == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
@@ -139,8 +129,7 @@ TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until i
 }
 
 TEST_CASE("pilot Raspberry Pi: a requested OUTPUT is reported for 500 ms while FBW is active") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.ask('u') == Reason::NONE);
   for (int slot = 0; slot < 248; ++slot) {
     CHECK(bench.authority.mode() == Mode::OUTPUT);
@@ -155,8 +144,7 @@ TEST_CASE("pilot Raspberry Pi: a requested OUTPUT is reported for 500 ms while F
 }
 
 TEST_CASE("pilot Raspberry Pi: of Output and Setpoint the newer counts") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
   REQUIRE(bench.demand(0, 1200) == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::SETPOINT);
@@ -170,8 +158,7 @@ TEST_CASE("pilot Raspberry Pi: of Output and Setpoint the newer counts") {
 }
 
 TEST_CASE("pilot Raspberry Pi: OUTPUT is not reported when it cannot be active") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.ask('u') == Reason::NONE);
   bench.run(20);
   SUBCASE("without an IMU") {
@@ -180,8 +167,7 @@ TEST_CASE("pilot Raspberry Pi: OUTPUT is not reported when it cannot be active")
     CHECK(bench.authority.mode() == Mode::ACRO);
   }
   SUBCASE("without a receiver") {
-    bench.sticks[THROTTLE] = 890;
-    bench.run(60);
+    bench.move(THROTTLE, 890, 60);
     CHECK(bench.authority.mode() == Mode::FBW);
   }
 }

@@ -18,10 +18,8 @@ void restart(PilotBench& bench, const PilotBench& before) {
 }  // namespace
 
 TEST_CASE("pilot restore: an armed aircraft flies on in its mode, with its throttle") {
-  PilotBench before;
-  before.fly(1500);
-  before.sticks[THROTTLE] = 1600;
-  before.run(100);
+  FlyingBench before(1500);
+  before.move(THROTTLE, 1600, 100);
   PilotBench bench(123456789);
   restart(bench, before);
   CHECK(bench.authority.is_armed());
@@ -53,18 +51,16 @@ TEST_CASE("pilot restore: the ground's requested mode, failsafe and latch are re
     PilotBench bench;
     restart(bench, before);
     CHECK(bench.authority.is_failsafe());
-    CHECK(bench.authority.is_throttle_latched());
+    CHECK(bench.authority.state().is_throttle_latched);
     CHECK(bench.throttle_us() == 1250);
-    bench.sticks[THROTTLE] = 1600;
-    bench.run(60);
+    bench.move(THROTTLE, 1600, 60);
     CHECK_FALSE(bench.authority.is_failsafe());
     CHECK(bench.throttle_us() == 1250);
   }
 }
 
 TEST_CASE("pilot restore: a receiver that stays lost triggers failsafe within a second") {
-  PilotBench before;
-  before.fly(1500);
+  FlyingBench before(1500);
   PilotBench bench;
   restart(bench, before);
   bench.is_on = false;
@@ -87,8 +83,7 @@ TEST_CASE("pilot restore: a receiver that was never received does not count as l
 }
 
 TEST_CASE("pilot restore: Outputs from before the reset do not live on") {
-  PilotBench before;
-  before.fly(2000);
+  FlyingBench before(2000);
   REQUIRE(before.output(1900, 1800) == Reason::NONE);
   PilotBench bench;
   restart(bench, before);
@@ -98,15 +93,13 @@ TEST_CASE("pilot restore: Outputs from before the reset do not live on") {
 }
 
 TEST_CASE("pilot restore: AUX2 keeps it armed and can still disarm it; it arms nothing") {
-  PilotBench before;
-  before.fly(1500);
+  FlyingBench before(1500);
   SUBCASE("armed") {
     PilotBench bench;
     restart(bench, before);
     bench.run(2000);
     CHECK(bench.authority.is_armed());
-    bench.sticks[AUX2] = 1000;
-    bench.run(400);
+    bench.move(AUX2, 1000, 400);
     CHECK_FALSE(bench.authority.is_armed());
   }
   SUBCASE("disarmed") {
@@ -122,8 +115,7 @@ TEST_CASE("pilot restore: AUX2 keeps it armed and can still disarm it; it arms n
 TEST_CASE("pilot restore: without it nothing is armed") {
   PilotBench bench;
   CHECK_FALSE(bench.authority.is_armed());
-  bench.sticks[AUX2] = 2000;
-  bench.run(3000);
+  bench.move(AUX2, 2000, 3000);
   CHECK_FALSE(bench.authority.is_armed());
 }
 
@@ -146,7 +138,7 @@ TEST_CASE("pilot: whatever happens, the rules hold") {
       if (dice == 9) bench.is_on = !bench.is_on;
       if (dice == 10) bench.is_imu_valid = !bench.is_imu_valid;
       if (dice == 11) bench.is_calibrating = !bench.is_calibrating;
-      if (dice == 12) bench.authority.accept_veto(random() & 1, bench.clock_us());
+      if (dice == 12) bench.authority.accept_veto(random() & 1);
       if (dice == 13) bench.is_on = bench.is_imu_valid = !(bench.is_calibrating = false);
       if (dice == 14) bench.sticks[THROTTLE] = 1000;
       const uint8_t vetoes_before = bench.authority.vetoes();

@@ -34,6 +34,11 @@ struct ReturnBench : PilotBench {
       run(50);
     }
   }
+  /** The receiver is found again on the way. */
+  void return_and_find() {
+    return_for(200);
+    is_on = true;
+  }
   Mode mode() const { return authority.flown_mode(); }
 };
 
@@ -137,8 +142,7 @@ TEST_CASE("pilot return: a motor that was latched off before a reset stays off")
 
 TEST_CASE("pilot return: the mere return of pulses gives the pilot nothing") {
   ReturnBench bench;
-  bench.return_for(200);
-  bench.is_on = true;
+  bench.return_and_find();
   bench.return_for(5000);
   CHECK(bench.authority.has_receiver());
   CHECK(bench.authority.is_failsafe());
@@ -167,8 +171,7 @@ TEST_CASE("pilot return: a stick that moves by a fifth of its travel after a sec
 
 TEST_CASE("pilot return: what moves within the first second of valid frames takes nothing over") {
   ReturnBench bench;
-  bench.return_for(200);
-  bench.is_on = true;
+  bench.return_and_find();
   bench.return_for(500);
   bench.sticks[AILERONS] = 1900;
   bench.return_for(3000);
@@ -180,8 +183,7 @@ TEST_CASE("pilot return: what moves within the first second of valid frames take
 
 TEST_CASE("pilot return: a switch that is not at AUTO takes over after a second") {
   ReturnBench bench;
-  bench.return_for(200);
-  bench.is_on = true;
+  bench.return_and_find();
   bench.return_for(1500);
   bench.sticks[AUX1] = AT_FBW;
   bench.return_for(100);
@@ -197,8 +199,7 @@ TEST_CASE("pilot return: a switch that is not at AUTO takes over after a second"
 
 TEST_CASE("pilot return: set-points that stop give a receiver that is back to the pilot") {
   ReturnBench bench;
-  bench.return_for(200);
-  bench.is_on = true;
+  bench.return_and_find();
   bench.return_for(300);
   bench.run(260);
   CHECK_FALSE(bench.authority.is_failsafe());
@@ -208,8 +209,7 @@ TEST_CASE("pilot return: set-points that stop give a receiver that is back to th
 
 TEST_CASE("pilot return: with the receiver back no Setpoint and no mode takes its place") {
   ReturnBench bench;
-  bench.return_for(200);
-  bench.is_on = true;
+  bench.return_and_find();
   bench.return_for(300);
   CHECK(bench.demand(-2000, 1800) == Reason::RECEIVER_INVALID);
   CHECK(bench.output(1200, 1800) == Reason::RECEIVER_INVALID);

@@ -18,8 +18,7 @@ TEST_CASE("pilot switch: each position has its mode, AUTO without a demand is FB
     PilotBench bench;
     std::memcpy(bench.profile.switch_modes, map.letters, 3);
     for (uint8_t position = 0; position < 3; ++position) {
-      bench.sticks[AUX1] = static_cast<uint16_t>(1000 + 500 * position);
-      bench.run(100);
+      bench.move(AUX1, static_cast<uint16_t>(1000 + 500 * position), 100);
       CHECK(bench.authority.switch_position() == position);
       CHECK(bench.authority.is_auto() == (map.letters[position] == 'A'));
       const Mode modes[] = {map.low, map.middle, map.high};
@@ -49,8 +48,7 @@ TEST_CASE("pilot switch: 1300 and 1700 us part the positions, 20 us each way") {
 
 TEST_CASE("pilot switch: leaving AUTO acts within one frame, whatever the Raspberry Pi sends") {
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}}) {
-    PilotBench bench;
-    bench.fly(2000);
+    FlyingBench bench(2000);
     bench.on_slot = [&] { bench.output(1900, 1800); };
     bench.run(400);
     REQUIRE(bench.authority.flown_mode() == Mode::OUTPUT);
@@ -73,14 +71,12 @@ TEST_CASE("pilot switch: leaving AUTO acts within one frame, whatever the Raspbe
 TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   PilotBench bench;
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}}) {
-    bench.sticks[AUX1] = aux1;
-    bench.run(100);
+    bench.move(AUX1, aux1, 100);
     for (char letter : {'r', 'f', 's', 'u'}) CHECK(bench.ask(letter) == Reason::NOT_AT_AUTO);
     CHECK(bench.demand(1000, 0) == Reason::NOT_AT_AUTO);
     CHECK(bench.authority.mode() == (aux1 == 1000 ? Mode::ACRO : Mode::FBW));
   }
-  bench.sticks[AUX1] = 2000;
-  bench.run(100);
+  bench.move(AUX1, 2000, 100);
   for (char letter : {'a', 'A', 'h', '\0', 'U', '\xFF'}) {
     CHECK(bench.ask(letter) == Reason::OUT_OF_RANGE);
     CHECK(bench.authority.mode() == Mode::FBW);
@@ -94,8 +90,7 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
 }
 
 TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requested mode") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   REQUIRE(bench.ask('r') == Reason::NONE);
   for (uint32_t left_ms : {2u, 40u, 140u}) {
     CAPTURE(left_ms);
@@ -104,50 +99,40 @@ TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requeste
     CHECK(bench.authority.mode() == Mode::FBW);
     CHECK(bench.output(1600, 0) == Reason::NOT_AT_AUTO);
     bench.run(left_ms - 2);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.mode() == (left_ms < 140 ? Mode::RATE : Mode::FBW));
   }
 }
 
 TEST_CASE("pilot switch: leaving AUTO ends the requests of ground and Raspberry Pi") {
-  PilotBench bench;
-  bench.fly(2000);
+  FlyingBench bench(2000);
   SUBCASE("the mode") {
     REQUIRE(bench.ask('r') == Reason::NONE);
-    bench.sticks[AUX1] = 1500;
-    bench.run(140);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1500, 140);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.mode() == Mode::FBW);
     CHECK(bench.output(1600, 0) == Reason::NONE);
   }
   SUBCASE("the Output") {
     REQUIRE(bench.output(1600, 1700) == Reason::NONE);
     bench.run(2);
-    bench.sticks[AUX1] = 1500;
-    bench.run(40);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1500, 40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.flown_mode() == Mode::FBW);
     CHECK(bench.throttle_us() == 1000);
   }
   SUBCASE("the Setpoint") {
     REQUIRE(bench.demand(1600, 1700) == Reason::NONE);
     bench.run(2);
-    bench.sticks[AUX1] = 1000;
-    bench.run(40);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1000, 40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.flown_mode() == Mode::FBW);
     CHECK(bench.throttle_us() == 1000);
   }
   SUBCASE("OUTPUT that was said before the first Output") {
     REQUIRE(bench.ask('u') == Reason::NONE);
-    bench.sticks[AUX1] = 1500;
-    bench.run(40);
-    bench.sticks[AUX1] = 2000;
-    bench.run(40);
+    bench.move(AUX1, 1500, 40);
+    bench.move(AUX1, 2000, 40);
     CHECK(bench.authority.mode() == Mode::FBW);
   }
 }
@@ -173,10 +158,9 @@ TEST_CASE("pilot switch: without an IMU everything is a pass-through, and it com
 }
 
 TEST_CASE("pilot switch: outside AUTO Authority ignores a lost Raspberry Pi") {
-  PilotBench bench;
-  bench.fly(1500);
+  FlyingBench bench(1500);
   bench.sticks[THROTTLE] = 1600;
-  bench.authority.accept_veto(true, bench.clock_us());
+  bench.authority.accept_veto(true);
   bench.run(5000);
   CHECK(bench.authority.mode() == Mode::FBW);
   CHECK(bench.authority.is_armed());

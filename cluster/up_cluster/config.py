@@ -19,9 +19,6 @@ _WORD = re.compile(r"[A-Za-z0-9_-]{1,32}", re.ASCII)
 class ClusterError(UserError):
     """A file of `cluster:` is wrong; `code` is `cluster_credentials` or `no_file`."""
 
-    def __init__(self, code: str, reason: str) -> None:
-        super().__init__(reason, code)
-
 
 class Server(NamedTuple):
     """Address of a NATS server."""
@@ -67,7 +64,6 @@ class FleetConfig:
                 yield "servers", f"must be as in nats://a:4222,nats://b:4222, not {text.strip()}"
 
     def addresses(self) -> list[Server]:
-        """Return the servers."""
         found = (_SERVER.fullmatch(text.strip()) for text in self.servers.split(","))
         return [Server(m[1] or m[2], int(m[3] or DEFAULT_PORT)) for m in found if m]
 
@@ -86,12 +82,12 @@ def read_secret(path: Path) -> str:
         text = path.read_text(encoding="utf-8").strip()
         if path.stat().st_mode & 0o077:
             reason = f"others may read {path}: run 'chmod 600 {path}'"
-            raise ClusterError("cluster_credentials", reason)
+            raise ClusterError(reason, "cluster_credentials")
     except (OSError, UnicodeDecodeError) as error:
         reason = f"cannot read {path}: {getattr(error, 'strerror', None) or error}"
-        raise ClusterError("no_file", reason) from None
+        raise ClusterError(reason, "no_file") from None
     if not text or "\n" in text:
-        raise ClusterError("cluster_credentials", f"{path} is not one line")
+        raise ClusterError(f"{path} is not one line", "cluster_credentials")
     return text
 
 

@@ -37,6 +37,17 @@ async def api(client: NatsClient, what: str, body: Mapping[str, Any]) -> dict[st
     return _checked(answer.payload)
 
 
+async def create_stream(client: NatsClient, config: Mapping[str, Any]) -> bool:
+    """Make a stream; False: one of this name exists, which is unchanged. Raises as `api`."""
+    try:
+        await api(client, f"STREAM.CREATE.{config['name']}", config)
+    except RefusedError as error:
+        if error.code != STREAM_NAME_EXISTS:
+            raise
+        return False
+    return True
+
+
 async def write(
     client: NatsClient, subject: str, payload: bytes, headers: Mapping[str, str] | None = None
 ) -> int:

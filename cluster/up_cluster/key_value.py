@@ -14,7 +14,15 @@ from up.log import UpLogger
 from up.system.clock import Clock, Timer, cancel
 from up_cluster import nats_protocol as nats
 from up_cluster.errors import RefusedError, UnavailableError
-from up_cluster.jetstream import EXPECTED, NANOSECONDS, STREAM_NAME_EXISTS, api, stored, write
+from up_cluster.jetstream import (
+    EXPECTED,
+    NANOSECONDS,
+    STREAM_NAME_EXISTS,
+    api,
+    create_stream,
+    stored,
+    write,
+)
 from up_cluster.nats_client import NatsClient
 
 MARKER_TTL_S = 60
@@ -63,18 +71,15 @@ class KeyValueBucket:
             "allow_msg_ttl": True,
             "subject_delete_marker_ttl": MARKER_TTL_S * NANOSECONDS,
         }
-        try:
-            await api(self._client, f"STREAM.CREATE.{self._stream}", config)
-        except RefusedError as error:
-            if error.code != STREAM_NAME_EXISTS:
-                raise
-            found = await api(self._client, f"STREAM.INFO.{self._stream}", {})
+        if not await create_stream(self._client, config):
+            found = await self.check()
             if not found["config"].get("allow_msg_ttl"):
-                raise RefusedError(error.code, f"{self._stream} exists without a TTL") from None
+                text = f"{self._stream} exists without a TTL"
+                raise RefusedError(STREAM_NAME_EXISTS, text)
 
-    async def check(self) -> None:
-        """Raise the error of a bucket that does not exist."""
-        await api(self._client, f"STREAM.INFO.{self._stream}", {})
+    async def check(self) -> dict[str, Any]:
+        """Return what describes the bucket, or raise the error of one that does not exist."""
+        return await api(self._client, f"STREAM.INFO.{self._stream}", {})
 
     async def get(self, key: str) -> Entry | None:
         """Return the newest entry that the bucket's leader knows; None for an unknown key.
@@ -127,7 +132,6 @@ class KeyValueBucket:
         return subject[len(self._subject("")) :]
 
     async def consume(self, config: dict[str, Any]) -> dict[str, Any]:
-        """Make an ephemeral consumer of the stream."""
         body = {"stream_name": self._stream, "config": config}
         return await api(self._client, f"CONSUMER.CREATE.{self._stream}", body)
 
@@ -159,15 +163,12 @@ class Watch:
         self._is_current = False
 
     def start(self) -> None:
-        self._end()
+        self.stop()
         Deferred.fromCoroutine(self._begin()).addErrback(
             lambda failure: _log.failure("a watch failed on a bug", failure, code="cluster_bug")
         )
 
     def stop(self) -> None:
-        self._end()
-
-    def _end(self) -> None:
         cancel(self._timer)
         if self._sid is not None:
             self._client.unsubscribe(self._sid)

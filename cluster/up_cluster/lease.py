@@ -1,24 +1,16 @@
 """Leases: at most one node holds a key, each holder has a higher fencing number than all before.
 
-Use, in a program with a started client::
-
-    bucket = KeyValueBucket(client, "up-leases")
-    await bucket.create(replicas=3)
-    leases = LeaseStore(bucket, reactor, node)
-    lease = await leases.acquire("instance.glider-1", lambda record: {"host": ...}, on_change)
-    ...
-    await leases.update(lease, {...})
-    await leases.release(lease)
-
-`acquire` calls `decide` with the present record; it returns the new data, or raises an exception of
-its own to leave the key to its holder. The first call is with None, as if the key were free, and
-there are more if others write at the same time: it must have no effects. The store renews a lease
-until it is released. Act for a lease only while `lease.is_proven(now_s)`: the proof is a write that
-the majority of the NATS servers took less than `ttl_s` ago. A reader's copy proves nothing.
+`LeaseStore.acquire` calls `decide` with the present record; it returns the new data, or raises an
+exception of its own to leave the key to its holder. The first call is with None, as if the key were
+free, and there are more if others write at the same time: it must have no effects. The store renews
+a lease until it is released. Act for a lease only while `lease.is_proven(now_s)`: the proof is a
+write that the majority of the NATS servers took less than `ttl_s` ago. A reader's copy proves
+nothing.
 """
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import field
 from enum import Enum
 from typing import Any, NamedTuple
@@ -159,30 +151,23 @@ class LeaseStore:
 
         Raises LeaseLostError if it is another node's.
         """
-        await lease.lock.acquire()
-        try:
+        async with lease.lock:
             await self._renew(lease, data)
-        finally:
-            lease.lock.release()
 
     async def release(self, lease: Lease, data: dict[str, Any] | None = None) -> None:
         """Give a lease up; without an answer from NATS it expires.
 
         With `data` the record stays until it expires: the next holder reads them.
         """
-        await lease.lock.acquire()
-        try:
+        async with lease.lock:
             if lease.is_lost:
                 return
             self._set_state(lease, LeaseState.LOST)
-            if data is None:
-                await self._bucket.purge(lease.key, expected=lease.revision)
-            else:
-                await self._put(lease.key, data, lease.fence, lease.revision)
-        except (UnavailableError, RefusedError):
-            pass
-        finally:
-            lease.lock.release()
+            with suppress(UnavailableError, RefusedError):
+                if data is None:
+                    await self._bucket.purge(lease.key, expected=lease.revision)
+                else:
+                    await self._put(lease.key, data, lease.fence, lease.revision)
 
     def leave(self, lease: Lease) -> None:
         """Renew a lease no longer, and keep its entry until it expires."""
@@ -197,11 +182,11 @@ class LeaseStore:
                 lease.revision = await self._put(lease.key, data, lease.fence, lease.revision)
             except WrongRevisionError:
                 entry = await self._bucket.get(lease.key)
-                record = self._record(entry)
+                record = None if entry is None else parse_record(entry)
                 if entry is None or entry.is_deleted:
                     # It expired. The next holder, this node, gets a new number.
                     lease.fence, lease.revision = 0, 0 if entry is None else entry.revision
-                elif record is not None:
+                elif record is not None and record.node != self._node:
                     self._set_state(lease, LeaseState.LOST)
                     raise LeaseLostError(lease.key) from None
                 else:
@@ -250,11 +235,6 @@ class LeaseStore:
     async def _put(self, key: str, data: dict[str, Any], fence: int, expected: int) -> int:
         value = json.dumps({"node": self._node, "fence": fence, "data": data})
         return await self._bucket.put(key, value.encode(), expected=expected, ttl_s=self._ttl_s)
-
-    def _record(self, entry: Entry | None) -> Record | None:
-        """Return the record of another node; None if the key is free, or this node's."""
-        record = None if entry is None else parse_record(entry)
-        return None if record is None or record.node == self._node else record
 
 
 def parse_record(entry: Entry) -> Record | None:

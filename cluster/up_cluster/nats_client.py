@@ -40,12 +40,6 @@ _GOOD_AFTER_S = 5.0
 _log = UpLogger.get_logger("cluster")
 
 OnMessage = Callable[[nats.Message], object]
-WriteTo = Callable[[Any, bytes], None]
-
-
-def write_to(transport: Any, data: bytes) -> None:
-    """Write as any reactor does."""
-    transport.write(data)
 
 
 class NatsClient:
@@ -68,7 +62,7 @@ class NatsClient:
         on_connected: Callable[[bool], object] = lambda _: None,
     ) -> None:
         self._reactor = reactor
-        self.write_to: WriteTo = getattr(reactor, "write_to", write_to)
+        self.write_to: Callable[[Any, bytes], None] = getattr(reactor, "write_to", _write)
         self._servers = deque(servers)
         self._tls = tls
         self._on_connected = on_connected
@@ -119,11 +113,6 @@ class NatsClient:
     @property
     def is_connected(self) -> bool:
         return self._link is not None
-
-    @property
-    def server(self) -> str:
-        """The name of the connected server; empty without one."""
-        return "" if self._link is None else self._link.server
 
     def publish(
         self,
@@ -348,9 +337,6 @@ class NatsLink(Protocol):
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
         """Do nothing: connectionLost follows."""
 
-    def abort(self) -> None:
-        self.transport.abortConnection()
-
     def _on_control(self, event: nats.Event) -> None:
         if isinstance(event, nats.Ping):
             self.send(nats.PONG)
@@ -371,7 +357,7 @@ class NatsLink(Protocol):
 
     def _fail(self, code: str, reason: str) -> None:
         self._failed = self._failed or (code, reason)
-        self.abort()
+        self.transport.abortConnection()
 
     def _on_ping_due(self) -> None:
         if self._clock.seconds() - self._last_rx_s > SILENCE_S:
@@ -380,3 +366,7 @@ class NatsLink(Protocol):
         self._ping = self._clock.callLater(PING_S, self._on_ping_due)
         if self._is_ready:
             self.send(nats.PING)
+
+
+def _write(transport: Any, data: bytes) -> None:
+    transport.write(data)

@@ -9,22 +9,22 @@ import hashlib
 import json
 import secrets
 from base64 import urlsafe_b64encode
-from collections.abc import AsyncIterator, Callable
+from collections.abc import Callable
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from twisted.internet.defer import Deferred
+from twisted.internet.defer import maybeDeferred
 from twisted.internet.threads import deferToThread
 
 from up_cluster.errors import RefusedError, UnavailableError
-from up_cluster.jetstream import EXPECTED, STREAM_NAME_EXISTS, api, stored, write
+from up_cluster.jetstream import EXPECTED, api, create_stream, stored, write
 from up_cluster.nats_client import NatsClient
 
 CHUNK_BYTES = 128 * 1024
-ReadChunk = Callable[[int], "bytes | Deferred[bytes]"]
-"""Returns the next bytes, at most as many as given; empty at the end."""
+ReadChunk = Callable[[int], Any]
+"""Returns the next bytes, at most as many as given, or their Deferred; empty at the end."""
 
 
 class ObjectDamagedError(Exception):
@@ -66,7 +66,6 @@ class ObjectStore:
         """Chunks of writes that NATS did not take to their end; not those of an earlier process."""
 
     async def create(self, replicas: int) -> None:
-        """Make the bucket if it does not exist."""
         config = {
             "name": self._stream,
             "subjects": [f"$O.{self._name}.C.>", f"$O.{self._name}.M.>"],
@@ -76,11 +75,7 @@ class ObjectStore:
             "allow_rollup_hdrs": True,
             "allow_direct": True,
         }
-        try:
-            await api(self._client, f"STREAM.CREATE.{self._stream}", config)
-        except RefusedError as error:
-            if error.code != STREAM_NAME_EXISTS:
-                raise
+        await create_stream(self._client, config)
 
     async def info(self, name: str) -> ObjectInfo | None:
         """Return what describes an object; None without it. Raises ObjectDamagedError."""
@@ -116,7 +111,7 @@ class ObjectStore:
             old = await self.info(name)
         digest, size, chunks = hashlib.sha256(), 0, 0
         try:
-            while data := await _result(read(CHUNK_BYTES)):
+            while data := await maybeDeferred(read, CHUNK_BYTES):
                 await write(self._client, self._chunks(nuid), data)
                 digest.update(data)
                 size, chunks = size + len(data), chunks + 1
@@ -143,26 +138,18 @@ class ObjectStore:
         parts = iter([data[at : at + CHUNK_BYTES] for at in range(0, len(data), CHUNK_BYTES)])
         return await self.put(name, lambda _: next(parts, b""), expected)
 
-    async def chunks(self, info: ObjectInfo) -> AsyncIterator[bytes]:
-        """Yield the parts of an object.
-
-        Raises ObjectDamagedError, at the end for a wrong digest: use nothing before.
-        """
-        digest, size, sequence = hashlib.sha256(), 0, 1
+    async def get_bytes(self, info: ObjectInfo) -> bytes:
+        """Return an object whose size is known to be small. Raises ObjectDamagedError."""
+        data, sequence = b"", 1
         for _ in range(info.chunks):
             query = {"seq": sequence, "next_by_subj": self._chunks(info.nuid)}
             found = await stored(self._client, self._stream, query)
             if found is None:
                 raise ObjectDamagedError(info.name, "chunk_missing", info.revision)
-            digest.update(found.data)
-            size, sequence = size + len(found.data), found.sequence + 1
-            yield found.data
-        if size != info.size or _text(digest) != info.digest:
+            data, sequence = data + found.data, found.sequence + 1
+        if len(data) != info.size or _text(hashlib.sha256(data)) != info.digest:
             raise ObjectDamagedError(info.name, "digest", info.revision)
-
-    async def get_bytes(self, info: ObjectInfo) -> bytes:
-        """Return an object whose size is known to be small. Raises ObjectDamagedError."""
-        return b"".join([each async for each in self.chunks(info)])
+        return data
 
     def _encode(self, info: ObjectInfo) -> bytes:
         fields: dict[str, Any] = {
@@ -191,10 +178,6 @@ class ObjectStore:
 
     def _meta(self, name: str) -> str:
         return f"$O.{self._name}.M.{urlsafe_b64encode(name.encode()).decode()}"
-
-
-async def _result(value: "bytes | Deferred[bytes]") -> bytes:
-    return await value if isinstance(value, Deferred) else value
 
 
 def _text(digest: Any) -> str:

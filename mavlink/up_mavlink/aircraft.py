@@ -58,7 +58,6 @@ class Aircraft:
 
     @property
     def problem(self) -> str:
-        """Return why no Command can be sent now; empty if it can."""
         return self._port.problem
 
     def on_frame(self, content: Mapping[str, Any], beacon: int | None) -> None:
@@ -130,7 +129,6 @@ class Aircraft:
         self._transfer(plan, ended)
 
     def known_rows(self, plan: str) -> Rows | None:
-        """Return the rows of the plan in use if they are known here."""
         rows, since_s = self._rows.get(plan, (None, 0.0))
         if rows is None:
             return None

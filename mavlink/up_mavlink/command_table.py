@@ -200,10 +200,6 @@ def _guided_heading(request: Request, persona: Persona, frame: Frame) -> list[Ba
     return [HeadingCommand.from_data({"heading": request.params[1], "mode": "required"})]
 
 
-def _start(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
-    return [FlightModeCommand("MISSION")]
-
-
 def _pause(request: Request, persona: Persona, frame: Frame) -> list[BaseCommand]:
     return [FlightModeCommand("MISSION" if request.number(1) == 1 else "LOITER")]
 
@@ -227,7 +223,7 @@ _TABLE: dict[int, Callable[[Request, Persona, Frame], list[BaseCommand]]] = {
     186: _change_altitude,
     DO_REPOSITION: _reposition,
     193: _pause,
-    300: _start,
+    300: _mode("MISSION"),
     400: _arm,
     43001: _guided_altitude,
     43002: _guided_heading,

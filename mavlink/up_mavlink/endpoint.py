@@ -74,17 +74,14 @@ class Endpoint:
 
     @property
     def content(self) -> Mapping[str, int]:
-        """Return the counters for telemetry."""
         return {"clients": len(self.sessions), **self.counters}
 
     def on_frame(self, content: Mapping[str, Any], beacon: int | None) -> None:
-        """Send a frame of telemetry to the clients."""
         self.aircraft.on_frame(content, beacon)
         for session in list(self.sessions.values()):
             session.on_frame()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take a message of the aircraft that is not telemetry."""
         self.aircraft.on_message(message)
 
     def start(self) -> None:

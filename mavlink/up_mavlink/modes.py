@@ -86,8 +86,8 @@ def _own_numbers(name: str, persona: Persona) -> Iterator[int]:
 
 def number_of(persona: Persona, frame: Frame, mode: str) -> int:
     """Return the custom mode of a flight mode; that of an unknown one if telemetry has none."""
-    number = numbers_of(persona, frame).get(mode)
-    return persona.number_of(mode or UNKNOWN_MODE) if number is None else number
+    unknown = persona.numbers.get(UNKNOWN_MODE, 0)
+    return {**persona.numbers, **numbers_of(persona, frame)}.get(mode, unknown)
 
 
 def mode_of(persona: Persona, frame: Frame, number: int) -> str | None:
@@ -114,7 +114,6 @@ class ModeList:
         self._sequence: int | None = None
 
     def update(self, frame: Frame) -> None:
-        """Take a frame of telemetry."""
         offered = modes_of(frame)
         numbers = numbers_of(self._persona, frame)
         present = [(name, number, offered[name]) for name, number in numbers.items()]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from up.commands.command import BaseCommand, InvalidCommandError
@@ -14,11 +15,12 @@ from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.fields import number_text
 from up.telemetry_frame import Frame
-from up_mavlink.parameter_names import names_of
 
 REAL32 = 9
 """MAV_PARAM_TYPE_REAL32, the type of every parameter."""
 PERIOD = "TELEM_PERIOD_MS"
+MAX_NAME = 16
+"""Characters of a parameter's name."""
 _LOOPS = {"RATE": "ratePIDs", "STAB": "stabPIDs"}
 _AXIS_NAMES = dict(zip(AXES, ("RLL", "PIT", "YAW"), strict=True))
 _GAINS = {
@@ -57,7 +59,6 @@ class Parameters:
 
     @property
     def is_known(self) -> bool:
-        """Return whether gains and keys have arrived."""
         return self._gains is not None and bool(self._files)
 
     def on_gains(self, data: Mapping[str, Any]) -> None:
@@ -76,7 +77,7 @@ class Parameters:
             return
         self._files[message.file] = {**message.values, **message.next_start}
         keys = [(file, key) for file, values in self._files.items() for key in values]
-        self._keys = names_of(keys)
+        self._keys = _names_of(keys)
 
     def on_set(self, name: str, value: float) -> None:
         """Take a value that the aircraft has written into a file."""
@@ -85,7 +86,6 @@ class Parameters:
         self._files[file][key] = kind(_decimal(value))
 
     def values(self, frame: Frame) -> dict[str, float]:
-        """Return all values."""
         found = {"SYSID_THISMAV": float(self._system_id)}
         known = {PERIOD: ("system", "period_ms"), **_READ_ONLY}
         for name, path in known.items():
@@ -137,6 +137,27 @@ class Parameters:
         if isinstance(self._files[file][key], bool):
             setting = {"0": "false", "1": "true"}.get(setting, setting)
         return ParameterSetCommand(file, key, setting)
+
+
+def _names_of(keys: Iterable[tuple[str, str]]) -> dict[str, tuple[str, str]]:
+    """Return file and key by a name: their words, the longest ones cut until it fits.
+
+    A name depends on its key alone, unless another key has the same one: then the later one, in the
+    order of the alphabet, ends with a number.
+    """
+    found: dict[str, tuple[str, str]] = {}
+    for file, key in sorted(keys):
+        words = re.split(r"[^A-Za-z0-9]+", f"{file.removesuffix('.yml')} {key}".upper())
+        while len("_".join(words)) > MAX_NAME and max(map(len, words)) > 1:
+            place = max(range(len(words)), key=lambda each: len(words[each]))
+            words[place] = words[place][:-1]
+        first = name = "_".join(words)[:MAX_NAME]
+        number = 1
+        while name in found:
+            number += 1
+            name = f"{first[: MAX_NAME - len(str(number))]}{number}"
+        found[name] = (file, key)
+    return found
 
 
 def single(value: float) -> float:

@@ -39,10 +39,6 @@ class Persona:
     numbers: Mapping[str, int] = field(default_factory=dict)
     has_home_item: bool = False
 
-    def number_of(self, mode: str) -> int:
-        """Return the custom mode of one of our flight modes."""
-        return self.numbers.get(mode, self.numbers.get(UNKNOWN_MODE, 0))
-
     def mode_of(self, number: int) -> str | None:
         """Return the flight mode of a custom mode; None: the aircraft has none."""
         found = (name for name, each in self.numbers.items() if each == number)

@@ -106,7 +106,6 @@ class Session:
 
     @property
     def has_ground(self) -> bool:
-        """Return whether heartbeats of a ground station arrive."""
         return self._clock.seconds() - self.ground_s <= GROUND_S
 
     def stop(self) -> None:
@@ -300,10 +299,7 @@ class Session:
             self._missions.set_current(int(request.number(1)), on_reply)
         else:
             persona, frame = self._aircraft.persona, self._aircraft.frame
-            self._ask(translate(request, persona, frame), on_reply)
-
-    def _ask(self, commands: list[BaseCommand], on_reply: Callable[[Reply], object]) -> None:
-        self._aircraft.ask(commands, on_reply)
+            self._aircraft.ask(translate(request, persona, frame), on_reply)
 
     def _name_of(self, number: float) -> str:
         message = self._m.mavlink_map.get(int(number))
@@ -350,7 +346,7 @@ class Session:
                 self.say(REFUSED, reply.reason)
 
         try:
-            self._ask(make(), on_reply)
+            self._aircraft.ask(make(), on_reply)
         except (InvalidCommandError, CommandNotTranslatedError) as error:
             on_reply(Reply(Code.INVALID.value, str(error)))
 

@@ -42,16 +42,13 @@ class Signing:
     Time stamps only grow, whatever connection a packet arrives on.
     """
 
-    def __init__(self, key: bytes, wall_s: float | None = None) -> None:
+    def __init__(self, key: bytes) -> None:
         self.key = key
-        now_s = time.time() if wall_s is None else wall_s
-        self.stamp = max(0, round((now_s - EPOCH_S) * UNITS_PER_S))
+        self.stamp = max(0, _now())
         self._newest: dict[tuple[int, int, int], int] = {}
 
     def next_stamp(self) -> int:
-        """Return the stamp of a packet to send."""
-        now = round((time.time() - EPOCH_S) * UNITS_PER_S)
-        self.stamp = max(self.stamp + 1, now)
+        self.stamp = max(self.stamp + 1, _now())
         return self.stamp
 
     def accepts(self, packet: bytes, system: int, component: int) -> bool:
@@ -68,3 +65,7 @@ class Signing:
         self._newest[sender] = stamp
         self.stamp = max(self.stamp, stamp)
         return True
+
+
+def _now() -> int:
+    return round((time.time() - EPOCH_S) * UNITS_PER_S)

@@ -26,7 +26,6 @@ class StatusTexts:
         self._reported_s: dict[Rule, float] = {}
 
     def update(self, frame: Frame, now_s: float) -> Iterator[tuple[int, str]]:
-        """Take a frame."""
         for rule in RULES:
             if not rule.event:
                 continue

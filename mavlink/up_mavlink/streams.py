@@ -58,7 +58,6 @@ class Streams:
             self.set_interval(name, 1e6 / rate_hz if rate_hz > 0 else -1)
 
     def due(self, now_s: float) -> Iterator[str]:
-        """Yield the messages to send now."""
         for name, interval_s in self._intervals_s.items():
             if interval_s is None:
                 continue

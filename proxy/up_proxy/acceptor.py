@@ -5,7 +5,6 @@ import select
 import socket
 from collections import Counter
 from contextlib import suppress
-from typing import NamedTuple
 
 from up.log import Limited, UpLogger
 from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
@@ -30,13 +29,6 @@ _WAIT_S = 2.0
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _RETRY_S = 1.0
 _log = UpLogger.get_logger("proxy")
-
-
-class _Newcomer(NamedTuple):
-    """An accepted connection from which nothing was read yet."""
-
-    peer: socket.socket
-    host: str
 
 
 class Acceptor:
@@ -64,7 +56,7 @@ class Acceptor:
         self._sources: Counter[str] = Counter()
         rate_hz = config.limits.connections_hz
         self._rate = TokenBucket(clock, rate_hz, max(1.0, rate_hz * _TURN_S))
-        self._waiting = AdmissionQueue[_Newcomer](round(rate_hz * _WAIT_S))
+        self._waiting = AdmissionQueue[tuple[socket.socket, str]](round(rate_hz * _WAIT_S))
         self._turn: Timer | None = None
         self._retry: Timer | None = None
         self._on_closed = self._discard
@@ -98,16 +90,15 @@ class Acceptor:
         )
 
     def close(self) -> None:
-        if self._retry is not None:
-            self._retry.cancel()
-            self._retry = None
+        cancel(self._retry)
+        self._retry = None
         self.end()
         if self.tls is not None:
             self.tls.close()
             self._log.stop()
         cancel(self._turn)
         while self._waiting:
-            self._waiting.pop().peer.close()
+            self._waiting.pop()[0].close()
         for connection in self.connections:
             connection.fail("the proxy is stopping")
 
@@ -158,11 +149,11 @@ class Acceptor:
         if not self._waiting and self._rate.take():
             self._admit(peer, host)
             return
-        lost = self._waiting.put(source, _Newcomer(peer, host))
+        lost = self._waiting.put(source, (peer, host))
         if lost is not None:
             self.over_limit += 1
-            self._release(lost.host)
-            self._refuse(lost.peer, HelloError(FULL, "too many new connections"))
+            self._release(lost[1])
+            self._refuse(lost[0], HelloError(FULL, "too many new connections"))
         if self._turn is None:
             self._turn = self._clock.callLater(_TURN_S, self._admit_waiting)
 

@@ -49,7 +49,6 @@ class AircraftSession(Owner):
 
     @property
     def own_grounds(self) -> int:
-        """How many grounds are connected to this proxy."""
         return len(self.grounds.connections)
 
     def lacks_control(self, now_s: float) -> bool:

@@ -5,6 +5,11 @@ from up.quick_dataclass import dataclass
 from up_cluster.config import ClusterConfig
 
 
+def _port(default: int, comment: str, name: str) -> int:
+    comment = f"{comment} 0: any free port, which is logged."
+    return key(default, comment, name=name, minimum=0, maximum=65535)
+
+
 @dataclass(frozen=True, slots=True)
 class LimitsConfig:
     """Limits, so that one peer cannot disturb the others."""
@@ -27,9 +32,7 @@ class LimitsConfig:
         minimum=20,
         maximum=100000,
     )
-    aircraft: int = key(
-        1000, "Aircraft names at one time.", name="aircraft", minimum=1, maximum=100000
-    )
+    aircraft: int = key(1000, "Aircraft names at one time.", minimum=1, maximum=100000)
     listeners: int = key(
         64,
         "Grounds that listen to one aircraft, in addition to the one in control.",
@@ -81,20 +84,8 @@ class TLSConfig:
         "makes it; relative to this file. Empty: no TLS.",
         max_length=4096,
     )
-    airborne_port: int = key(
-        3013,
-        "TLS port for aircraft. 0: any free port, which is logged.",
-        name="airborne port",
-        minimum=0,
-        maximum=65535,
-    )
-    ground_port: int = key(
-        3014,
-        "TLS port for ground stations. 0: any free port, which is logged.",
-        name="ground port",
-        minimum=0,
-        maximum=65535,
-    )
+    airborne_port: int = _port(3013, "TLS port for aircraft.", "airborne port")
+    ground_port: int = _port(3014, "TLS port for ground stations.", "ground port")
     plain: bool = key(False, "Whether the plain ports are open, too.", name="plain ports")
     handshakes: int = key(
         500,
@@ -108,24 +99,11 @@ class TLSConfig:
 class ProxyConfig:
     """The Ground Station Proxy: the relay between aircraft and ground stations."""
 
-    airborne_port: int = key(
-        3003,
-        "TCP port for aircraft. 0: any free port, which is logged.",
-        name="airborne port",
-        minimum=0,
-        maximum=65535,
-    )
-    ground_port: int = key(
-        3004,
-        "TCP port for ground stations. 0: any free port, which is logged.",
-        name="ground port",
-        minimum=0,
-        maximum=65535,
-    )
+    airborne_port: int = _port(3003, "TCP port for aircraft.", "airborne port")
+    ground_port: int = _port(3004, "TCP port for ground stations.", "ground port")
     address: str = key(
         "",
         "Address to listen on; empty: every interface, IPv4 and IPv6.",
-        name="address",
         max_length=64,
     )
     i_accept_plain: bool = key(
@@ -134,13 +112,7 @@ class ProxyConfig:
         "free. Peers with public addresses are refused there until this is true. Set it only when "
         "a firewall or VPN protects the ports, or when you accept the risk.",
     )
-    metrics_port: int = key(
-        9303,
-        "TCP port of the metrics page on 127.0.0.1. 0: any free port, which is logged.",
-        name="metrics port",
-        minimum=0,
-        maximum=65535,
-    )
+    metrics_port: int = _port(9303, "TCP port of the metrics page on 127.0.0.1.", "metrics port")
     metrics: bool = key(True, "Whether the metrics page is served.")
     log_level: str = key(
         "info",

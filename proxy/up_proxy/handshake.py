@@ -43,6 +43,13 @@ def new_token() -> str:
     return secrets.token_hex(16)
 
 
+def refusal(token: str | None) -> HelloError:
+    """Return why an aircraft whose name another connection has is refused."""
+    if token is None:
+        return HelloError(TAKEN, "an aircraft of this name is connected")
+    return HelloError(TOKEN, "this token is not that of the connected aircraft")
+
+
 class Handshake(Owner):
     """Owns the connections of one side until their first line identifies them."""
 
@@ -82,13 +89,11 @@ class Handshake(Owner):
         if partial is None:
             return
         if partial.starts_with(_CLIENT_HELLO):
-            del self._since_s[connection]
             self._refuse(connection, HelloError(MALFORMED, "this port does not speak TLS"))
         elif partial.starts_with(b"{"):
             del self._since_s[connection]
             self._admit_legacy(connection, silent=False)
         elif len(partial) >= HELLO_MAX_BYTES:
-            del self._since_s[connection]
             reason = f"a hello is at most {HELLO_MAX_BYTES} bytes"
             self._refuse(connection, HelloError(MALFORMED, reason))
 
@@ -103,14 +108,12 @@ class Handshake(Owner):
                     del self._since_s[connection]
                     self._admit_legacy(connection, silent=True)
             elif now_s - since_s >= HELLO_TIMEOUT_S:
-                del self._since_s[connection]
                 reason = f"no hello within {HELLO_TIMEOUT_S:g} s"
                 self._refuse(connection, HelloError(MALFORMED, reason))
         self._lingering.sweep(now_s)
 
     def _refuse(self, connection: Connection, error: HelloError) -> None:
-        self.refused[error.code] += 1
-        self._lingering.begin(connection, self._poller.now_s)
+        self._linger(connection, error)
         connection.refuse(Refused(error.code, error.reason).encode(), error.reason)
 
     def _admit(self, connection: Connection, hello: Hello) -> None:
@@ -122,15 +125,12 @@ class Handshake(Owner):
             check_name(connection, hello.aircraft)
             lease = session.air_lease
             resumed = lease.is_resumed_by(hello.token)
-            if not resumed and not lease.is_free(self._poller.now_s):
-                if hello.token is None:
-                    raise HelloError(TAKEN, "an aircraft of this name is connected")
-                raise HelloError(TOKEN, "this token is not that of the connected aircraft")
             if not resumed:
+                if not lease.is_free(self._poller.now_s):
+                    raise refusal(hello.token)
                 self._take_aircraft(session)
             connection.token = lease.token if resumed and lease.token else new_token()
-            access = Access.AIR
-            connection.send(Accepted(hello.aircraft, access, connection.token).encode())
+            connection.send(Accepted(hello.aircraft, Access.AIR, connection.token).encode())
             session.admit(connection)
         else:
             self._registry.check_room(session, hello.token)
@@ -154,7 +154,7 @@ class Handshake(Owner):
             if self._side is Side.AIRBORNE:
                 check_name(connection, LEGACY_AIRCRAFT)
                 if not session.air_lease.is_free(self._poller.now_s):
-                    raise HelloError(TAKEN, "an aircraft of this name is connected")
+                    raise refusal(None)
                 self._take_aircraft(session)
                 session.admit(connection)
             else:
@@ -170,9 +170,13 @@ class Handshake(Owner):
 
     def _refuse_legacy(self, connection: Connection, error: HelloError) -> None:
         """Close without a line: a legacy client would read it as a malformed message."""
-        self.refused[error.code] += 1
-        self._lingering.begin(connection, self._poller.now_s)
+        self._linger(connection, error)
         connection.fail(error.reason)
+
+    def _linger(self, connection: Connection, error: HelloError) -> None:
+        self.refused[error.code] += 1
+        self._since_s.pop(connection, None)
+        self._lingering.begin(connection, self._poller.now_s)
 
 
 def check_name(connection: Connection, aircraft: str) -> None:

@@ -34,7 +34,6 @@ class LoopTick:
 
     @property
     def lag_max_s(self) -> float:
-        """Maximum lateness of the last minute, in seconds."""
         return max(self._lags_s)
 
     def start(self) -> None:
@@ -42,8 +41,7 @@ class LoopTick:
         self._arm()
 
     def stop(self) -> None:
-        timer, self._timer = self._timer, None
-        cancel(timer)
+        cancel(self._timer)
 
     def _arm(self) -> None:
         self._due_s = self._clock.seconds() + TICK_S

@@ -67,14 +67,7 @@ def run(reactor: Any, config: ProxyConfig, folder: Path = Path()) -> int:
     def on_stop() -> object:
         notifier.stopping()
         pinger.stop()
-        stopping = proxy.stop()
-        if stopping is None:
-            on_stopped(None)
-            return None
-        return stopping.addCallback(on_stopped)
-
-    def on_stopped(_: object) -> None:
-        _log.info("stopped", code="stopped")
+        return proxy.stop().addCallback(lambda _: _log.info("stopped", code="stopped"))
 
     reactor.callWhenRunning(on_running)
     reactor.addSystemEventTrigger("before", "shutdown", on_stop)

@@ -1,7 +1,7 @@
 """The metrics of the proxy, in the Prometheus text exposition format, version 0.0.4."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 import psutil
 
@@ -14,6 +14,8 @@ from up_proxy.tenant_quota import TenantQuota
 
 Samples = list[tuple[Mapping[str, str], float]]
 """Labels and value of each sample."""
+Row = tuple[str, str, Samples]
+"""Name without its prefix, help, samples."""
 Metric = tuple[str, str, str, Samples]
 """Name, kind (`counter` or `gauge`), help in one line, samples."""
 
@@ -40,9 +42,6 @@ def render(
     def each(of: Callable[[AircraftSession], float]) -> Samples:
         return [({"aircraft": craft.name}, of(craft)) for craft in present]
 
-    def one(value: float) -> Samples:
-        return [({}, value)]
-
     connections = by_side(*(sum(len(each.connections) for each in sides[side]) for side in Side))
     refused = _by_code(sides, lambda each: each.refused)
     tls_failed = _by_code(sides, lambda each: {} if each.tls is None else each.tls.failed)
@@ -56,7 +55,7 @@ def render(
     commanded = each(lambda craft: int(craft.grounds.lease.live_owner(now_s) is not None))
     grounds = each(lambda craft: len(craft.grounds.connections))
     dropped, rejected = one(totals.dropped_lines), one(totals.rejected_lines)
-    counters: list[tuple[str, str, Samples]] = [
+    counters: list[Row] = [
         ("accepted", "Accepted connections.", ports("accepted")),
         ("over_limit", "Connections closed because of a limit.", ports("over_limit")),
         ("idle_closed", "Closed idle connections.", ports("idle_closed")),
@@ -67,7 +66,7 @@ def render(
         ("rejected_lines", "Lines from grounds without control or to no aircraft.", rejected),
         ("aircraft_bytes", "Bytes received, by aircraft and side.", aircraft_received),
     ]
-    gauges: list[tuple[str, str, Samples]] = [
+    gauges: list[Row] = [
         ("connections", "Open connections.", connections),
         ("aircraft", "Aircraft with at least one connection.", one(len(registry))),
         ("aircraft_online", "1 while the airborne side is alive.", online),
@@ -84,17 +83,20 @@ def render(
         "Resident memory.",
         one(psutil.Process().memory_info().rss),
     )
-    return page(
-        [
-            *(
-                (f"up_proxy_{name}_total", "counter", text, values)
-                for name, text, values in counters
-            ),
-            *((f"up_proxy_{name}", "gauge", text, values) for name, text, values in gauges),
-            resident,
-            *more,
-        ]
-    )
+    return page([*named("up_proxy", counters, gauges), resident, *more])
+
+
+def named(prefix: str, counters: Iterable[Row], gauges: Iterable[Row]) -> Iterator[Metric]:
+    """Yield the metrics of some rows under their whole names."""
+    for name, text, values in counters:
+        yield f"{prefix}_{name}_total", "counter", text, values
+    for name, text, values in gauges:
+        yield f"{prefix}_{name}", "gauge", text, values
+
+
+def one(value: float) -> Samples:
+    """Return the only sample of a metric without labels."""
+    return [({}, value)]
 
 
 def quota_metrics(quota: TenantQuota) -> list[Metric]:

@@ -5,7 +5,6 @@ an idle connection no entry in the reactor.
 """
 
 import select
-import time
 from collections import deque
 from collections.abc import Callable
 from typing import Any, Protocol
@@ -44,7 +43,7 @@ class Handler(Protocol):
 class Poller:
     """Dispatches socket events; `now_s` is the monotonic time at which the batch began."""
 
-    def __init__(self, reactor: Any, seconds: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, reactor: Any, seconds: Callable[[], float]) -> None:
         self._reactor = reactor
         self._seconds = seconds
         self._epoll = select.epoll()
@@ -99,8 +98,7 @@ class Poller:
     def reap(self) -> None:
         """End the handlers that requested it; an end may request others."""
         while self._ending:
-            handler = self._ending.pop()
-            handler.end()
+            self._ending.pop().end()
 
     def fileno(self) -> int:
         return self._epoll.fileno()

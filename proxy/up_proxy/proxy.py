@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from twisted.internet.defer import Deferred, succeed
 from twisted.internet.error import CannotListenError
 from twisted.internet.task import deferLater
 
@@ -25,8 +26,6 @@ from up_proxy.registry import AircraftRegistry
 from up_proxy.tenant_quota import TenantQuota
 
 if TYPE_CHECKING:
-    from twisted.internet.defer import Deferred
-
     from up_proxy.cluster.node import ClusterNode
 
 _log = UpLogger.get_logger("proxy")
@@ -40,14 +39,11 @@ class Proxy:
         self._config = config
         self._tls = TLSFiles(folder / config.tls.folder) if config.tls.folder else None
         self._poller = Poller(reactor, reactor.seconds)
-        limits = config.limits
         self._are_ports_closed = False
         self._quota = TenantQuota(reactor, config.quota)
         self._node = self._new_node(folder) if config.cluster.servers else None
         make = AircraftSession if self._node is None else self._node.new_session
-        self.registry = AircraftRegistry(
-            reactor, self._poller, limits.aircraft, limits.listeners, make
-        )
+        self.registry = AircraftRegistry(reactor, self._poller, config.limits, make)
         self._acceptors: list[Acceptor] = []
         self._metrics_port: Any = None
         self._loop_tick = LoopTick(reactor, self._tick)
@@ -107,19 +103,19 @@ class Proxy:
         if self._node is not None:
             self._node.start()
 
-    def stop(self) -> "Deferred[None] | None":
-        """Close everything; a node of a cluster then gives up its aircraft to the others."""
+    def stop(self) -> Deferred[None]:
+        """Close everything; a node of a cluster gives up its aircraft to the others before."""
         self._loop_tick.stop()
         if self._metrics_port is not None:
             self._metrics_port.stopListening()
         self._close_acceptors()
         self._poller.reap()
-        if self._node is not None:
-            # The poller may be what calls back: it is closed in the next round.
-            stopped = self._node.stop()
-            return stopped.addCallback(lambda _: deferLater(self._reactor, 0, self._finish))
-        self._finish()
-        return None
+        if self._node is None:
+            self._finish()
+            return succeed(None)
+        # The poller may be what calls back: it is closed in the next round.
+        stopped = self._node.stop()
+        return stopped.addCallback(lambda _: deferLater(self._reactor, 0, self._finish))
 
     def _close_acceptors(self) -> None:
         if not self._are_ports_closed:
@@ -135,14 +131,8 @@ class Proxy:
         from up_proxy.cluster.node import ClusterNode
 
         try:
-            config = self._config
             node = ClusterNode(
-                self._reactor,
-                self._poller,
-                config.cluster,
-                folder,
-                config.limits.listeners,
-                self._quota,
+                self._reactor, self._poller, self._config.cluster, folder, self._quota
             )
         except (ClusterError, TLSError) as error:
             raise StartError(error.code, f"{error} (proxy.yml: cluster)", status=2) from None

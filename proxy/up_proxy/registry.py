@@ -7,6 +7,7 @@ from up.protocols.proxy_lines import FULL, HelloError
 from up.quick_dataclass import dataclass
 from up.system.clock import Clock
 from up_proxy.aircraft import AircraftSession
+from up_proxy.config import LimitsConfig
 from up_proxy.poller import Poller
 
 LOG_INTERVAL_S = 10.0
@@ -38,15 +39,13 @@ class AircraftRegistry:
         self,
         clock: Clock,
         poller: Poller,
-        max_aircraft: int,
-        max_listeners: int,
-        make: Callable[[str, Poller, Limited], AircraftSession] = AircraftSession,
+        limits: LimitsConfig,
+        make: Callable[[str, Poller, Limited], AircraftSession],
     ) -> None:
         self._poller = poller
         self._log = Limited(clock, LOG_INTERVAL_S, MAX_LOG_KEYS)
         self._make = make
-        self._max_aircraft = max_aircraft
-        self._max_listeners = max_listeners
+        self.limits = limits
         self._sessions: dict[str, AircraftSession] = {}
         self._gone = Totals()
 
@@ -57,7 +56,6 @@ class AircraftRegistry:
         return list(self._sessions.values())
 
     def totals(self) -> Totals:
-        """Return the sums over all aircraft since the start."""
         totals = Totals()
         totals.add(self._gone)
         for session in self._sessions.values():
@@ -71,7 +69,7 @@ class AircraftRegistry:
         """
         session = self._sessions.get(name)
         if session is None:
-            if len(self._sessions) >= self._max_aircraft:
+            if len(self._sessions) >= self.limits.aircraft:
                 raise HelloError(FULL, "too many aircraft on this proxy")
             session = self._sessions[name] = self._make(name, self._poller, self._log)
         return session
@@ -83,7 +81,7 @@ class AircraftRegistry:
         """
         lease = session.grounds.lease
         listeners = len(session.grounds.connections) - (lease.owner is not None)
-        if listeners >= self._max_listeners and not (
+        if listeners >= self.limits.listeners and not (
             lease.is_free(self._poller.now_s) or lease.is_resumed_by(token)
         ):
             raise HelloError(FULL, "too many grounds for this aircraft")

@@ -9,58 +9,54 @@ class SendBuffer:
     control lines, are never dropped.
     """
 
-    __slots__ = ("_buffer", "_kept", "dropped_lines", "limit_bytes")
+    __slots__ = ("_buffer", "dropped_lines", "kept_bytes", "limit_bytes")
 
-    def __init__(self, limit_bytes: int = 0) -> None:
+    def __init__(self, limit_bytes: int) -> None:
         self.limit_bytes = limit_bytes
         self.dropped_lines = 0
         self._buffer = bytearray()
-        self._kept = 0
+        self.kept_bytes = 0
         """Length of the head that must be sent unchanged."""
 
     def __len__(self) -> int:
         return len(self._buffer)
 
-    @property
-    def kept_bytes(self) -> int:
-        return self._kept
-
     def put_rest(self, rest: bytes) -> None:
         """Start the queue; the first line, which is never dropped, may be partly sent."""
         assert not self._buffer
         self._buffer += rest
-        self._kept = rest.find(b"\n") + 1
+        self.kept_bytes = rest.find(b"\n") + 1
 
     def keep(self, count: int) -> None:
         """Keep at least this many bytes of the head unchanged, up to the end of a line."""
-        if count > self._kept:
-            self._kept = self._buffer.find(b"\n", count - 1) + 1 or len(self._buffer)
+        if count > self.kept_bytes:
+            self.kept_bytes = self._buffer.find(b"\n", count - 1) + 1 or len(self._buffer)
 
     def put(self, lines: bytes) -> None:
         buffer = self._buffer
         buffer += lines
         if not self.limit_bytes or len(buffer) <= self.limit_bytes:
             return
-        last = min(self._kept + len(buffer) - self.limit_bytes, len(buffer)) - 1
-        cut = buffer.find(b"\n", max(last, self._kept)) + 1
-        if cut > self._kept:
-            self.dropped_lines += buffer.count(b"\n", self._kept, cut)
-            del buffer[self._kept : cut]
+        last = min(self.kept_bytes + len(buffer) - self.limit_bytes, len(buffer)) - 1
+        cut = buffer.find(b"\n", max(last, self.kept_bytes)) + 1
+        if cut > self.kept_bytes:
+            self.dropped_lines += buffer.count(b"\n", self.kept_bytes, cut)
+            del buffer[self.kept_bytes : cut]
 
     def put_control(self, line: bytes) -> None:
         """Insert a control line at the first line boundary, ahead of all droppable lines."""
-        self._buffer[self._kept : self._kept] = line
-        self._kept += len(line)
+        self._buffer[self.kept_bytes : self.kept_bytes] = line
+        self.kept_bytes += len(line)
 
-    def head(self, size: int = 65536) -> bytes:
-        return bytes(self._buffer[:size])
+    def head(self) -> bytes:
+        return bytes(self._buffer[:65536])
 
     def sent(self, count: int) -> None:
         buffer = self._buffer
-        if count < self._kept:
-            self._kept -= count
+        if count < self.kept_bytes:
+            self.kept_bytes -= count
         elif count and buffer[count - 1] != 0x0A:
-            self._kept = buffer.find(b"\n", count) + 1 - count
+            self.kept_bytes = buffer.find(b"\n", count) + 1 - count
         else:
-            self._kept = 0
+            self.kept_bytes = 0
         del buffer[:count]

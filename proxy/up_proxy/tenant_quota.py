@@ -46,7 +46,6 @@ class TenantQuota:
         self._due_s = 0.0
 
     def used(self) -> Usage:
-        """Return the usage of all nodes."""
         now_s = self._clock.seconds()
         fresh = [each for at_s, each in self._others.values() if now_s - at_s <= FRESH_S]
         return Usage(

@@ -17,9 +17,6 @@ _TLS_HANDSHAKE = b"\x16"
 """The first byte of a TLS connection."""
 _log = UpLogger.get_logger("proxy")
 
-OnDone = Callable[[TLSSocket, str], None]
-OnFailed = Callable[[str], None]
-
 
 class TLSHandshakes:
     """Hands on a connection whose peer has a valid certificate of the CA.
@@ -34,8 +31,8 @@ class TLSHandshakes:
         poller: Poller,
         log: Limited,
         limit: int,
-        on_done: OnDone,
-        on_failed: OnFailed,
+        on_done: Callable[[TLSSocket, str], None],
+        on_failed: Callable[[str], None],
     ) -> None:
         self.failed: dict[str, int] = {}
         self.files = files

@@ -29,6 +29,10 @@ NEVER_SETTABLE_KEY = re.compile(
 )
 
 
+def _path(comment: str, name: str | None = None) -> str:
+    return key("", comment, name=name, max_length=4096)
+
+
 @dataclass(frozen=True, slots=True)
 class ProxyAddress:
     """The proxy between the instances and the ground: they use it, and responses name it."""
@@ -45,11 +49,9 @@ class ProxyAddress:
     ground_port: int = key(
         3004, "TCP port of its ground side.", name="ground port", minimum=1, maximum=65535
     )
-    tls: str = key(
-        "",
+    tls: str = _path(
         "Folder with the instances' certificate (mission_control.yml: remote_server: tls), "
         "relative to this file. Empty: remote_server: tls applies.",
-        max_length=4096,
     )
 
 
@@ -147,12 +149,10 @@ class RunnerConfig:
     address: str = key(
         "", "Address to listen on. Empty: every IPv4 address; '::': every address.", max_length=64
     )
-    tls: str = key(
-        "",
+    tls: str = _path(
         "Folder with ca.pem, certificate.pem, key.pem and revoked.pem, as 'up certificates device' "
         "makes it; relative to this file. The port then speaks TLS alone, and a client of any "
         "address needs a certificate of the CA. Empty: plain.",
-        max_length=4096,
     )
     security: Security = key(
         "auto",
@@ -185,55 +185,39 @@ class RunnerConfig:
         "The mode of the instances. A lost phone stops an instance in black box mode only: the "
         "others may be flying.",
     )
-    application_root: str = key(
-        "",
+    application_root: str = _path(
         "Folder of the application. Empty: that of the installed Raspilot.",
-        name="application root",
-        max_length=4096,
+        "application root",
     )
-    script_path: str = key(
-        "",
+    script_path: str = _path(
         "The program to run, relative to the application root. Empty: main.py, or, with an empty "
         "application root, the installed Raspilot (python -m raspilot).",
-        name="script path",
-        max_length=4096,
+        "script path",
     )
-    python: str = key(
-        "", "The Python interpreter. Empty: the one that runs the runner.", max_length=4096
-    )
-    instance_config: str = key(
-        "",
+    python: str = _path("The Python interpreter. Empty: the one that runs the runner.")
+    instance_config: str = _path(
         "Base configuration folder of every instance. Empty: the folder blackbox/ beside this file "
         "in black box mode, otherwise the folder of this file.",
-        name="instance config",
-        max_length=4096,
+        "instance config",
     )
-    profiles_folder: str = key(
-        "",
+    profiles_folder: str = _path(
         "Folder with a folder of configuration files for each profile. Empty: profiles/ beside "
         "this file.",
-        name="profiles folder",
-        max_length=4096,
+        "profiles folder",
     )
-    run_folder: str = key(
-        "",
+    run_folder: str = _path(
         "Folder for sockets and state, private to this user. Empty: RUNTIME_DIRECTORY, "
         "otherwise XDG_RUNTIME_DIR/up-runner, otherwise /tmp/up-runner-<user id>.",
-        name="run folder",
-        max_length=4096,
+        "run folder",
     )
-    instances_folder: str = key(
-        "",
+    instances_folder: str = _path(
         "Folder for the instances' configuration and persisted files. Empty: STATE_DIRECTORY, "
         "otherwise the run folder.",
-        name="instances folder",
-        max_length=4096,
+        "instances folder",
     )
-    logs_folder: str = key(
-        "",
+    logs_folder: str = _path(
         "Folder for the instances' logs. Empty: LOGS_DIRECTORY, otherwise .logs in the run folder.",
-        name="logs folder",
-        max_length=4096,
+        "logs folder",
     )
     instances: int = key(8, "Maximum number of instances.", minimum=1, maximum=1000)
     kept_instances: int = key(

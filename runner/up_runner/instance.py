@@ -21,6 +21,7 @@ from up_runner.request import Request
 from up_runner.response import BUG, Problem, Response
 from up_runner.watchdog import Watchdog
 
+KILL_DELAY_S = 5.0
 PORT_CHECK_S = 0.1
 
 
@@ -47,14 +48,12 @@ class Instance:
         self.phone: bool | None = None
         self.armed: bool | None = None
         self.last_end: Problem | None = None
-        self.rejected = 0
-        """Notifications from another process than the instance's."""
         self._clock = clock
         self._policy = policy
         self._host = host
         self._is_kept = keep
         self._log = Logger(namespace=f"runner.{self.name}")
-        self._backoff = Backoff(policy.restarts)
+        self._backoff = Backoff(policy.restarts, gives_up=not policy.always_restart)
         self._child: Process | None = None
         self._listener: NotifyListener | None = None
         self._is_ready = False
@@ -105,7 +104,7 @@ class Instance:
         return waiter
 
     def stop(self, reason: Problem) -> None:
-        """Request the end of the process, and kill it after `kill_delay_s`."""
+        """Request the end of the process, and kill it after KILL_DELAY_S."""
         if (self.state, Input.STOP) in TRANSITIONS:
             self._log.info(
                 "stops: {reason}", code="stopping", cause=reason.code, reason=str(reason)
@@ -136,7 +135,6 @@ class Instance:
 
     def on_notification(self, pid: int, notification: Notification) -> None:
         if self._child is None or pid != self._child.pid:
-            self.rejected += 1
             return
         before = (self.ports, self.phone, self.armed)
         if notification.ports is not None:
@@ -288,7 +286,7 @@ class Instance:
         self._is_stopping = True
         if self.state is State.RUNNING and self._timer is None:
             self._cancel_timers()
-            self._timer = self._clock.callLater(self._policy.kill_delay_s, child.kill)
+            self._timer = self._clock.callLater(KILL_DELAY_S, child.kill)
 
     def _kill_for(self, reason: Problem) -> None:
         self._reason = reason
@@ -302,7 +300,7 @@ class Instance:
     def _terminate(self) -> None:
         if self._child is not None:
             self._child.terminate()
-            self._timer = self._clock.callLater(self._policy.kill_delay_s, self._child.kill)
+            self._timer = self._clock.callLater(KILL_DELAY_S, self._child.kill)
 
     def _on_end(self, status: int | None) -> None:
         """Choose the next state after the end of the process."""
@@ -341,11 +339,9 @@ class Instance:
         self.ports = self.phone = None
         self._timer = self._clock.callLater(self._restart_delay_s, self._feed, Input.START)
 
-    def _close_child(self) -> None:
+    def _leave(self) -> None:
         if self._child is not None:
             self._child.close()
-
-    def _leave_listener(self) -> None:
         if self._listener is not None:
             self._listener.close(remove=False)
 

@@ -12,32 +12,18 @@ from twisted.internet.defer import Deferred, DeferredLock
 from twisted.internet.threads import deferToThreadPool
 from twisted.logger import Logger
 
-from up.quick_dataclass import dataclass
 from up_runner import instance_state
+from up_runner.config import RunnerConfig
 from up_runner.instance_config import ConfigurationRefused, InstanceConfig
 from up_runner.instance_state import InstanceState
-from up_runner.listening_ports import listening_ports
 from up_runner.log_keeper import LogKeeper
 from up_runner.notify_listener import Notification, NotifyListener
-from up_runner.process import Process, sessions_with
+from up_runner.paths import Paths
+from up_runner.process import Process, listening_ports, sessions_with
 from up_runner.request import NAME, Request
 from up_runner.run_folder import RunFolder
 
 NOTIFY = "notify"
-
-
-@dataclass(frozen=True, slots=True)
-class Application:
-    """The command: interpreter, script, working folder, mode; `watchdog_s` None: no watchdog.
-
-    Without a script it is the installed Raspilot.
-    """
-
-    python: Path
-    script: Path | None
-    root: Path
-    mode: str
-    watchdog_s: float | None
 
 
 class InstanceHost:
@@ -50,22 +36,22 @@ class InstanceHost:
     def __init__(
         self,
         reactor: Any,
-        application: Application,
+        config: RunnerConfig,
+        paths: Paths,
         run_folder: RunFolder,
-        folder: Path,
-        config: InstanceConfig,
-        logs: LogKeeper,
+        instance_config: InstanceConfig,
         environ: Mapping[str, str],
     ) -> None:
         self.reactor = reactor
         self.run_folder = run_folder
-        self.folder = folder
-        self.logs = logs
+        self.folder = paths.instances
+        self.logs = LogKeeper(paths.logs, config.logs.size, config.logs.keep)
         self.on_change: Callable[[str], None] = lambda name: None
         self.permit: Callable[[str], Mapping[str, str]] = lambda name: {}
         """Returns more variables for a start, or raises ConfigurationRefused."""
-        self._application = application
         self._config = config
+        self._paths = paths
+        self._instance_config = instance_config
         self._environ = dict(environ)
         self._disk = DeferredLock()
         self._log = Logger(namespace="runner")
@@ -88,7 +74,6 @@ class InstanceHost:
 
     def spawn(self, name: str, config: Path, log: int) -> Process:
         """Start the application and close the log's descriptor; raises OSError."""
-        application = self._application
         try:
             permitted = self.permit(name)
         except ConfigurationRefused:
@@ -99,21 +84,21 @@ class InstanceHost:
             NOTIFY_SOCKET=str(self._notify_path(name)),
             UP_PID_FILE=str(self._pid_path(name)),
             UP_INSTANCE=name,
-            UP_MODE=application.mode,
+            UP_MODE=self._config.mode,
             PYTHONUNBUFFERED="1",
             **permitted,
         )
-        if application.watchdog_s is not None:
-            environ["WATCHDOG_USEC"] = str(round(application.watchdog_s * 1e6))
+        if self._config.watchdog_s:
+            environ["WATCHDOG_USEC"] = str(round(self._config.watchdog_s * 1e6))
         try:
-            script = application.script
+            script = self._paths.script
             if script is not None and not script.is_file():
                 raise FileNotFoundError(f"no such script: {script}")
             program = ["-m", "raspilot"] if script is None else [str(script)]
             return Process.spawn(
                 self.reactor,
-                [str(application.python), *program, "--config", str(config)],
-                cwd=application.root,
+                [str(self._paths.python), *program, "--config", str(config)],
+                cwd=self._paths.root,
                 environ=environ,
                 log=log,
             )
@@ -162,7 +147,7 @@ class InstanceHost:
         return deferToThreadPool(self.reactor, self.reactor.getThreadPool(), function, *arguments)
 
     def _prepare(self, request: Request) -> tuple[Path, int]:
-        config = self._config.build(request, self.folder / request.aircraft)
+        config = self._instance_config.build(request, self.folder / request.aircraft)
         return config, self.logs.open(request.aircraft)
 
     def _pid_path(self, name: str) -> Path:

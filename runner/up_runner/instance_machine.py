@@ -33,7 +33,7 @@ _S, _I = State, Input
 _RUN = ("keep", "notify", "reset_watchdog", "watch_phone", "save", "resolve_waiters")
 _WAIT = ("schedule_restart", "notify", "save", "resolve_waiters")
 _FINISH = ("remove_traces", "notify", "resolve_waiters", "resolve_exit_waiters")
-_LEAVE = ("close_child", "leave_listener")
+_LEAVE = ("leave",)
 
 TRANSITIONS: dict[tuple[State, Input], tuple[State, tuple[str, ...]]] = {
     (_S.ENDED, _I.START): (_S.STARTING, ("notify", "start_process")),

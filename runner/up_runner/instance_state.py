@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from up.quick_dataclass import dataclass
 from up_runner.process import Identity
-from up_runner.request import MalformedRequest, Request, parse
+from up_runner.request import MalformedRequest, Request, decode_request, encode_request
 
 NAME = "state.json"
 _VERSION = 1
@@ -44,9 +43,8 @@ class InstanceState:
         who = self.identity
         return {
             "version": _VERSION,
-            "request": self.request.as_json(),
+            **encode_request(self.request),
             "process": who and [who.pid, who.start_ticks, who.boot_id],
-            "key": self.request.key,
             "keep": self.keep,
             "ready": self.ready,
             "ports": self.ports,
@@ -60,25 +58,21 @@ def load(folder: Path) -> InstanceState | None:
         found = json.loads((folder / NAME).read_text("utf-8"))
         if found["version"] != _VERSION:
             return None
-        request = parse(json.dumps(found["request"]).encode())
-        request = replace(request, key=str(found.get("key", "")))
+        request = decode_request(found)
         if request.aircraft != folder.name:
             return None
-        who = found["process"]
-        state = InstanceState(
+        who, ports = found["process"], found["ports"]
+        return InstanceState(
             request=request,
             identity=None if who is None else Identity(int(who[0]), int(who[1]), str(who[2])),
             keep=bool(found["keep"]),
             ready=bool(found["ready"]),
+            ports=None if ports is None else {str(name): int(p) for name, p in ports.items()},
             phone=None if found["phone"] is None else bool(found["phone"]),
         )
-        if found["ports"] is not None:
-            ports = {str(name): int(port) for name, port in found["ports"].items()}
-            state = replace(state, ports=ports)
     except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, MalformedRequest):
         # A broken file is ignored; the processes still show which instances live.
         return None
-    return state
 
 
 def discard(folder: Path) -> None:

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from twisted.internet.defer import Deferred, DeferredList
 from twisted.logger import Logger
 
+from up.system.clock import Clock
+from up.system.figures import Figure
+from up.system.token_bucket import TokenBucket
+from up_runner.config import KeyQuota, RunnerConfig
 from up_runner.instance import Instance
 from up_runner.instance_host import InstanceHost
 from up_runner.instance_machine import State
 from up_runner.instance_state import InstanceState
-from up_runner.key_starts import KeyStarts
 from up_runner.log_maintenance import LogMaintenance
-from up_runner.policy import Policy
+from up_runner.policy import policy_of
 from up_runner.process import Identity, Process, ProcessGone, identity_of
 from up_runner.request import Request
-from up_runner.response import Problem, Response
+from up_runner.response import Problem, Response, failed
 
 FAILURE_CACHE_S = 1.0
 _MAX_CACHED = 100
@@ -25,27 +28,22 @@ STOPPING = Problem("stopping", "the runner is stopping")
 
 
 class Instances:
-    """Starts and finds instances; runs at most `limit`, keeps the files of `kept` ended ones."""
+    """Starts and finds instances, within the limits of the configuration."""
 
     def __init__(
-        self,
-        host: InstanceHost,
-        policy: Policy,
-        *,
-        limit: int,
-        kept: int,
-        starts: KeyStarts | None = None,
-        on_change: Callable[[], None] = lambda: None,
+        self, host: InstanceHost, config: RunnerConfig, on_change: Callable[[], None]
     ) -> None:
         self._host = host
-        self._policy = policy
-        self._limit = limit
-        self._starts = starts
+        self._policy = policy_of(config)
+        self._limit = config.instances
+        self._starts = KeyStarts(host.reactor, config.key_quota)
         self._on_change = on_change
         self.on_end: Callable[[Instance], object] = lambda instance: None
         """Called with each instance that has ended for good."""
         self._instances: dict[str, Instance] = {}
-        self._maintenance = LogMaintenance(host, kept, lambda: list(self._instances))
+        self._maintenance = LogMaintenance(
+            host, config.kept_instances, lambda: list(self._instances)
+        )
         self.is_closed = False
         self._failures: dict[str, tuple[float, Request, Problem]] = {}
         self._log = Logger(namespace="runner")
@@ -63,8 +61,17 @@ class Instances:
         return text + (": " if shown else "") + ", ".join(shown)
 
     def states(self) -> dict[str, State]:
-        """Return the states of the instances by their names."""
         return {name: each.state for name, each in self._instances.items()}
+
+    def figures(self) -> Iterator[Figure]:
+        states = self.states()
+        for state in State:
+            text = "Instances by state."
+            count = sum(each is state for each in states.values())
+            yield Figure("up_runner_instances", text, count, {"state": state.name.lower()})
+        for name, each in states.items():
+            text = "1 while the instance of an aircraft runs."
+            yield Figure("up_runner_running", text, each is State.RUNNING, {"aircraft": name})
 
     def open(self) -> None:
         """Adopt the instances of an earlier runner, and start maintaining the logs."""
@@ -91,10 +98,10 @@ class Instances:
             return Response(name, error=STOPPING)
         if len(self._instances) >= self._limit:
             text = f"all {self._limit} instances of this host are in use"
-            return Response(name, error=Problem("instance_limit", text))
+            return failed(name, "instance_limit", text)
         if (error := self._recent_failure(request)) is not None:
             return Response(name, error=error)
-        if self._starts is not None and request.key:
+        if request.key:
             running = sum(each.request.key == request.key for each in self._instances.values())
             if (error := self._starts.count(request.key, running)) is not None:
                 return Response(name, error=error)
@@ -118,7 +125,6 @@ class Instances:
 
     @property
     def free(self) -> int:
-        """Return how many more instances may run."""
         return 0 if self.is_closed else max(0, self._limit - len(self._instances))
 
     def get(self, name: str) -> Instance | None:
@@ -206,3 +212,25 @@ class Instances:
             return Process.adopt(self._host.reactor, identity)
         except ProcessGone:
             return None
+
+
+class KeyStarts:
+    """The quota of each key; starts before a restart of the runner are forgotten."""
+
+    def __init__(self, clock: Clock, quota: KeyQuota) -> None:
+        self._clock = clock
+        self._quota = quota
+        self._buckets: dict[str, TokenBucket] = {}
+
+    def count(self, key: str, running: int) -> Problem | None:
+        """Count a start by a key with so many instances, or return why it is refused."""
+        if running >= self._quota.instances:
+            text = f"all {self._quota.instances} instances of this key are in use"
+            return Problem("key_instances", text)
+        limit = self._quota.starts_per_minute
+        bucket = self._buckets.get(key)
+        if bucket is None:
+            bucket = self._buckets[key] = TokenBucket(self._clock, limit / 60, limit)
+        if not bucket.take():
+            return Problem("key_starts", f"this key has started {limit} instances within a minute")
+        return None

@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-from collections.abc import Iterable
 from pathlib import Path
 
 _END = 16384
@@ -89,16 +88,12 @@ class LogKeeper:
             return 0.0
 
     def remove(self, name: str) -> None:
-        """Remove all logs of an instance that does not run."""
         self._begins.pop(name, None)
         pattern = re.compile(re.escape(name) + r"\.log(\.[0-9]+)?")
-        for path in list(self._files()):
+        for path in list(self.folder.glob(f"{name}.log*")):
             if pattern.fullmatch(path.name):
                 with contextlib.suppress(OSError):
                     path.unlink()
-
-    def _files(self) -> Iterable[Path]:
-        return self.folder.iterdir() if self.folder.is_dir() else ()
 
     def _copy_end(self, path: Path) -> None:
         for number in range(self._keep - 1, 0, -1):

@@ -6,12 +6,12 @@ import contextlib
 import shutil
 from collections.abc import Callable, Collection
 from pathlib import Path
-from typing import Any
 
+from twisted.internet.defer import Deferred
+from twisted.internet.task import LoopingCall
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up.system.clock import cancel
 from up_runner.instance_host import InstanceHost
 from up_runner.log_keeper import LogKeeper
 from up_runner.request import NAME
@@ -32,17 +32,18 @@ class LogMaintenance:
         self._host = host
         self._kept = kept
         self._in_use = in_use
-        self._timer: Any = None
-        self._busy = False
         self._failed = False
+        # At most one thread at a time, even if the disk takes longer than the period.
+        self._loop = LoopingCall(self._run)
+        self._loop.clock = host.reactor
         self._log = Logger(namespace="runner")
 
     def start(self) -> None:
-        self._timer = self._host.reactor.callLater(PERIOD_S, self._run)
+        self._loop.start(PERIOD_S, now=False)
 
     def stop(self) -> None:
-        timer, self._timer = self._timer, None
-        cancel(timer)
+        if self._loop.running:
+            self._loop.stop()
 
     def prune(self) -> None:
         self._host.on_disk(self._prune).addErrback(self._on_error)
@@ -51,24 +52,21 @@ class LogMaintenance:
         folders = {self._host.run_folder.path, self._host.folder}
         prune(folders, self._host.logs, self._in_use(), self._kept)
 
-    def _run(self) -> None:
-        self._timer = self._host.reactor.callLater(PERIOD_S, self._run)
+    def _run(self) -> Deferred[None] | None:
         names = self._in_use()
-        # At most one thread at a time, even if the disk takes longer than the period.
-        if names and not self._busy:
-            self._busy = True
-            rotating = self._host.in_thread(self._rotate, names)
-            rotating.addCallback(self._on_rotated).addErrback(self._on_error)
+        if not names:
+            return None
+        rotating = self._host.in_thread(self._rotate, names)
+        return rotating.addCallback(self._on_rotated).addErrback(self._on_error)
 
     def _rotate(self, names: Collection[str]) -> None:
         for name in names:
             self._host.logs.rotate(name)
 
     def _on_rotated(self, _: object) -> None:
-        self._busy = self._failed = False
+        self._failed = False
 
     def _on_error(self, failure: Failure) -> None:
-        self._busy = False
         if failure.check(OSError) is None:
             self._log.failure("a bug in the runner", failure, code="runner_bug")
         elif not self._failed:
@@ -90,22 +88,18 @@ def _remains(folders: Collection[Path]) -> set[str]:
     return names
 
 
-def prune(
-    folders: Collection[Path], logs: LogKeeper, in_use: Collection[str], keep: int
-) -> list[str]:
-    """Remove all but the `keep` latest ended instances, and return their names; blocks on the disk.
+def prune(folders: Collection[Path], logs: LogKeeper, in_use: Collection[str], keep: int) -> None:
+    """Remove all but the `keep` latest ended instances; blocks on the disk.
 
     Instances `in_use` stay and do not count. Their logs are removed with them.
     """
     ended = [name for name in _remains(folders) if name not in in_use]
     ended.sort(key=lambda name: (max(logs.newest_s(name), _newest_s(folders, name)), name))
-    gone = ended[: max(0, len(ended) - keep)]
-    for name in gone:
+    for name in ended[: max(0, len(ended) - keep)]:
         for folder in folders:
             if _is_ours(folder / name):
                 shutil.rmtree(folder / name, ignore_errors=True)
         logs.remove(name)
-    return gone
 
 
 def _is_ours(path: Path) -> bool:

@@ -34,7 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     start_logging(options.log_level or "info")
     from twisted.internet import reactor
 
-    from up_runner.runner import CannotStart, Runner
+    from up_runner.run_folder import CannotStart
+    from up_runner.runner import Runner
 
     use_monotonic_time(reactor)
     runner = Runner(reactor, config, folder)

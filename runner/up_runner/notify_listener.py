@@ -19,7 +19,6 @@ _MAX_BATCH = 100
 MAX_BYTES = 4096
 _PORT = re.compile(r"([a-z][a-z0-9_]{0,31}):([1-9][0-9]{0,4})", re.ASCII)
 _MAX_PORTS = 16
-_MAX_STATUS = 200
 _FLAGS = {"1": True, "0": False}
 
 
@@ -34,7 +33,6 @@ class Notification:
     ready: bool = False
     alive: bool = False
     stopping: bool = False
-    status: str | None = None
     ports: Mapping[str, int] | None = None
     phone: bool | None = None
     armed: bool | None = None
@@ -43,8 +41,7 @@ class Notification:
 def parse(datagram: bytes) -> Notification:
     """Parse a datagram; unknown or malformed fields are left out.
 
-    Source: sd_notify(3) for READY, WATCHDOG, STOPPING and STATUS; those that begin with X_UP_ are
-    additions. Never raises.
+    Source: sd_notify(3) for READY, WATCHDOG and STOPPING; X_UP_ begins our additions. Never raises.
     """
     fields: dict[str, str] = {}
     for line in datagram[:MAX_BYTES].decode("utf-8", "replace").split("\n"):
@@ -55,17 +52,10 @@ def parse(datagram: bytes) -> Notification:
         ready=fields.get("READY") == "1",
         alive=fields.get("WATCHDOG") == "1",
         stopping=fields.get("STOPPING") == "1",
-        status=_status(fields.get("STATUS")),
         ports=_ports(fields.get("X_UP_PORTS")),
         phone=_FLAGS.get(fields.get("X_UP_PHONE", "")),
         armed=_FLAGS.get(fields.get("X_UP_ARMED", "")),
     )
-
-
-def _status(text: str | None) -> str | None:
-    if text is None:
-        return None
-    return "".join(letter if letter.isprintable() else "?" for letter in text[:_MAX_STATUS])
 
 
 def _ports(text: str | None) -> dict[str, int] | None:
@@ -91,7 +81,6 @@ class NotifyListener:
         self, reactor: Any, path: Path, on_notification: Callable[[int, Notification], None]
     ) -> None:
         self.path = path
-        self.dropped = 0
         self._reactor = reactor
         self._on_notification = on_notification
         self._socket: socket.socket | None = None
@@ -147,9 +136,7 @@ class NotifyListener:
         except OSError:
             return False
         pid = _sender(extra)
-        if pid is None or flags & socket.MSG_TRUNC:
-            self.dropped += 1
-        else:
+        if pid is not None and not flags & socket.MSG_TRUNC:
             self._on_notification(pid, parse(data))
         return True
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from up.quick_dataclass import dataclass
 from up_runner.config import RunnerConfig
-from up_runner.run_folder import default_run_folder
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +40,8 @@ class Paths:
             else None,
             # Not resolved: the symbolic link is what makes it a virtual environment's interpreter.
             python=Path(config.python or sys.executable).absolute(),
-            base=_in(config_folder, config.instance_config, "blackbox" if black_box else "."),
-            profiles=_in(config_folder, config.profiles_folder, "profiles"),
+            base=config_folder / (config.instance_config or ("blackbox" if black_box else ".")),
+            profiles=config_folder / (config.profiles_folder or "profiles"),
             run=run,
             instances=Path(config.instances_folder or _first(environ, "STATE_DIRECTORY") or run),
             logs=Path(config.logs_folder or _first(environ, "LOGS_DIRECTORY") or run / ".logs"),
@@ -56,9 +55,15 @@ def own_root() -> Path:
     return tree if (tree / "main.py").is_file() else Path.cwd()
 
 
-def _in(folder: Path, wanted: str, default: str) -> Path:
-    return folder / (wanted or default)
+def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
+    """Return the default folder of sockets and state."""
+    if runtime := _first(environ, "RUNTIME_DIRECTORY"):
+        return Path(runtime)
+    if environ.get("XDG_RUNTIME_DIR"):
+        return Path(environ["XDG_RUNTIME_DIR"], "up-runner")
+    return Path(f"/tmp/up-runner-{uid}")
 
 
 def _first(environ: Mapping[str, str], variable: str) -> str:
+    """Return a folder of the service manager, which may name several."""
     return environ.get(variable, "").split(":")[0]

@@ -6,20 +6,11 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 
 from up.quick_dataclass import dataclass
+from up_runner.config import Restarts, RunnerConfig
 from up_runner.response import Problem
 
 ASLEEP = "asleep"
 """The code of an instance that sleeps until the next request for its aircraft."""
-
-
-@dataclass(frozen=True, slots=True)
-class RestartPolicy:
-    """Delays and limits, in seconds; a `limit` of None never gives up."""
-
-    delay_s: float
-    max_delay_s: float
-    limit: int | None
-    period_s: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +25,7 @@ class Policy:
     start_limit_s: float
     watchdog_s: float | None
     exit_delay_s: float | None
-    kill_delay_s: float
-    restarts: RestartPolicy
+    restarts: Restarts
     always_restart: bool
     needed_ports: tuple[str, ...] = ()
     sleeps: bool = False
@@ -63,11 +53,33 @@ class Policy:
         return Problem(code, f"its phone was gone for {self.exit_delay_s:g} s")
 
 
-class Backoff:
-    """Counts the ends of one instance within the policy's period."""
+def policy_of(config: RunnerConfig) -> Policy:
+    """Return the requirements of a configuration for every instance.
 
-    def __init__(self, policy: RestartPolicy) -> None:
-        self._policy = policy
+    Only a black box stops with its phone or after failures: the others may be in flight.
+    """
+    black_box = config.mode == "black box"
+    pool = config.pool
+    exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
+    sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
+    return Policy(
+        start_limit_s=config.start_limit_s,
+        watchdog_s=config.watchdog_s or None,
+        exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
+        restarts=config.restarts,
+        always_restart=not black_box,
+        # Without this port no phone can reach it.
+        needed_ports=("general",) if black_box else (),
+        sleeps=sleeps,
+    )
+
+
+class Backoff:
+    """Counts the ends of one instance within the period of `restarts`."""
+
+    def __init__(self, restarts: Restarts, *, gives_up: bool) -> None:
+        self._restarts = restarts
+        self._gives_up = gives_up
         self._ends: deque[float] = deque(maxlen=1000)
 
     @property
@@ -80,12 +92,12 @@ class Backoff:
 
         An end older than the period no longer counts: the delays start again.
         """
-        policy = self._policy
-        while self._ends and now_s - self._ends[0] >= policy.period_s:
+        restarts = self._restarts
+        while self._ends and now_s - self._ends[0] >= restarts.period_s:
             self._ends.popleft()
         self._ends.append(now_s)
-        if policy.limit is not None and len(self._ends) > policy.limit:
+        if self._gives_up and len(self._ends) > restarts.limit:
             return None
         # 2**30 periods exceed any bound; a larger exponent would only overflow.
         doublings = min(len(self._ends) - 1, 30)
-        return min(policy.delay_s * 2.0**doublings, policy.max_delay_s)
+        return min(restarts.delay_s * 2.0**doublings, restarts.max_delay_s)

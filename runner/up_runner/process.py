@@ -6,10 +6,13 @@ import contextlib
 import os
 import select
 import signal
+import socket
 import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import psutil
 
 from up.quick_dataclass import dataclass
 
@@ -34,7 +37,7 @@ class ProcessGone(Exception):  # noqa: N818 - a normal outcome
 
 def identity_of(pid: int) -> Identity:
     """Return the identity of a living process; raises ProcessGone for an unused number."""
-    state, ticks, _ = _stat(pid)
+    state, ticks = _stat(pid)
     if state in "ZX":
         raise ProcessGone(f"process {pid} has ended")
     return Identity(pid, ticks, boot_id())
@@ -50,26 +53,38 @@ def sessions_with(variable: str, prefix: str) -> Iterator[tuple[int, str]]:
 
     Sees only processes that this user may inspect.
     """
-    wanted = f"{variable}={prefix}".encode()
-    for entry in Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        with contextlib.suppress(OSError, ProcessGone):
-            pid = int(entry.name)
-            for word in (entry / "environ").read_bytes().split(b"\0"):
-                if word.startswith(wanted) and _stat(pid)[2] == pid:
-                    yield pid, os.fsdecode(word[len(variable) + 1 :])
+    for process in psutil.process_iter():
+        with contextlib.suppress(OSError, psutil.Error):
+            value = process.environ().get(variable, "")
+            if value.startswith(prefix) and os.getsid(process.pid) == process.pid:
+                yield process.pid, value
 
 
-def _stat(pid: int) -> tuple[str, int, int]:
-    """Return state, start in ticks and session of a process. Source: proc_pid_stat(5)."""
+def listening_ports(pid: int) -> frozenset[int] | None:
+    """Return the TCP ports that a process listens on and the UDP ports that it has bound.
+
+    None if this user may not inspect the process.
+    """
+    try:
+        process = psutil.Process(pid)
+        # The name before psutil 6.
+        find = getattr(process, "net_connections", None) or process.connections
+        found = find("inet")
+    except psutil.Error:
+        return None
+    is_open = (socket.SOCK_DGRAM, psutil.CONN_NONE), (socket.SOCK_STREAM, psutil.CONN_LISTEN)
+    return frozenset(each.laddr.port for each in found if (each.type, each.status) in is_open)
+
+
+def _stat(pid: int) -> tuple[str, int]:
+    """Return state and start in ticks of a process. Source: proc_pid_stat(5)."""
     try:
         text = Path(f"/proc/{pid}/stat").read_text("utf-8", "replace")
     except OSError:
         raise ProcessGone(f"there is no process {pid}") from None
     # The name in parentheses may hold any character, parentheses too.
     fields = text[text.rindex(")") + 2 :].split()
-    return fields[0], int(fields[19]), int(fields[3])
+    return fields[0], int(fields[19])
 
 
 class Process:

@@ -6,7 +6,7 @@ import json
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Any, Literal, NoReturn
 
 from up.protocols.runner_session import PROTECTED, body_of
@@ -93,6 +93,19 @@ def parse(line: bytes) -> Request:
         action="status" if action == "status" else "spawn",
         labels=_labels(found.get("labels")),
     )
+
+
+def encode_request(request: Request) -> dict[str, Any]:
+    """Return the fields of a request, with the id of the key that signed it."""
+    return {"request": request.as_json(), "key": request.key}
+
+
+def decode_request(fields: Mapping[str, Any]) -> Request:
+    """Raises MalformedRequest."""
+    if not isinstance(fields.get("request"), dict):
+        raise MalformedRequest("the request is missing")
+    request = parse(json.dumps(fields["request"]).encode())
+    return replace(request, key=str(fields.get("key", "")))
 
 
 def _decode(line: bytes) -> Any:

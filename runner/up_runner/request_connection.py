@@ -12,7 +12,6 @@ from zope.interface import implementer
 
 from up.protocols.aircraft_sessions import AircraftSessions
 from up.protocols.runner_session import RUNNER
-from up.system.clock import Timer, cancel
 from up_runner.request import MAX_LINE, MalformedRequest, Request, parse
 from up_runner.response import BUG, Problem, Response
 from up_runner.watchdog import Watchdog
@@ -52,9 +51,10 @@ class RequestConnection(Protocol):
         """Bytes of the buffer known to hold no line feed."""
         self._closing = False
         self._answered = False
-        self._idle = Watchdog(server.clock, server.idle_s, self._on_idle)
+        self._idle = Watchdog(server.clock, server.limits.idle_s, self._on_idle)
         self._unfinished = Watchdog(server.clock, UNFINISHED_S, self._on_unfinished)
-        self._silence: Timer | None = None
+        self._silence = Watchdog(server.clock, SILENCE_S, self._on_silence)
+        self._closer = Watchdog(server.clock, CLOSE_S, self.drop)
         self._output_full = False
         self._parsing = False
         self._input_ended = False
@@ -67,9 +67,7 @@ class RequestConnection(Protocol):
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Remove the client; its request continues."""
         self._closing = True
-        self._idle.stop()
-        self._unfinished.stop()
-        self._cancel_silence()
+        self._stop_timers()
         self._server.on_gone(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
@@ -93,7 +91,7 @@ class RequestConnection(Protocol):
         if self.busy or self._closing:
             return
         if self._buffer and not self._answered:
-            self._cancel_silence()
+            self._silence.stop()
             self._on_silence()
         else:
             self.transport.loseConnection()
@@ -121,7 +119,7 @@ class RequestConnection(Protocol):
         if self._parsing:
             return
         self._parsing = True
-        self._cancel_silence()
+        self._silence.stop()
         while not self.busy and not self._closing:
             end = self._buffer.find(b"\n", self._searched)
             self._searched = len(self._buffer) if end < 0 else 0
@@ -156,10 +154,9 @@ class RequestConnection(Protocol):
             # Counted from its first byte: sending byte by byte gains no time.
             self._unfinished.reset()
         if not self._answered:
-            self._silence = self._server.clock.callLater(SILENCE_S, self._on_silence)
+            self._silence.reset()
 
     def _on_silence(self) -> None:
-        self._silence = None
         line, self._buffer, self._searched = bytes(self._buffer), bytearray(), 0
         try:
             # A complete request without its line feed is still a request.
@@ -208,13 +205,11 @@ class RequestConnection(Protocol):
         self._closing = True
         self._buffer.clear()
         self._searched = 0
-        self._idle.stop()
-        self._unfinished.stop()
-        self._cancel_silence()
+        self._stop_timers()
         self._set_reading()
         self.transport.unregisterProducer()
         self.transport.loseWriteConnection()
-        self._silence = self._server.clock.callLater(CLOSE_S, self.drop)
+        self._closer.reset()
 
     def _set_reading(self) -> None:
         if self.busy or self._output_full or self._closing or self._input_ended:
@@ -230,6 +225,6 @@ class RequestConnection(Protocol):
         self._server.counts["idle"] += 1
         self.drop()
 
-    def _cancel_silence(self) -> None:
-        silence, self._silence = self._silence, None
-        cancel(silence)
+    def _stop_timers(self) -> None:
+        for each in (self._idle, self._unfinished, self._silence, self._closer):
+            each.stop()

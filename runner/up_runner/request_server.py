@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, cast
 
@@ -19,6 +19,8 @@ from up.protocols.handshake import Refusal
 from up.protocols.runner_session import to_line
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock
+from up.system.figures import Figure
+from up_runner.config import Connections
 from up_runner.request import MalformedRequest, Request, parse
 from up_runner.request_connection import RequestConnection
 from up_runner.request_gate import OFF, UNPROTECTED, RequestGate, refusal_of
@@ -42,20 +44,15 @@ class RequestServer(ServerFactory):
         clock: Clock,
         handle: Handle,
         encode: Callable[[Response, str], bytes],
-        *,
-        limit: int,
-        address_limit: int,
-        idle_s: float,
+        limits: Connections,
         gate: RequestGate,
     ) -> None:
         self.clock = clock
-        self.idle_s = idle_s
+        self.limits = limits
         self.encode = encode
         self.counts: Counter[str] = Counter()
         self.log = Logger(namespace="runner.requests")
         self._handle = handle
-        self._limit = limit
-        self._address_limit = address_limit
         self._gate = gate
         self._limited = Limited(cast(Any, clock), LOG_INTERVAL_S)
         self._connections: set[RequestConnection] = set()
@@ -75,10 +72,10 @@ class RequestServer(ServerFactory):
             self._reject("public_address", host, reason)
             return None
         source = neighbourhood(host)
-        if self._by_source[source] >= self._address_limit:
+        if self._by_source[source] >= self.limits.address_limit:
             self._reject("address_limit", host, "it has too many connections")
             return None
-        if len(self._connections) >= self._limit and not self._make_room():
+        if len(self._connections) >= self.limits.limit and not self._make_room():
             self._reject("connection_limit", host, "all connections are in use")
             return None
         connection = RequestConnection(self, host)
@@ -87,8 +84,13 @@ class RequestServer(ServerFactory):
         self._by_source[source] += 1
         return connection
 
+    def figures(self) -> Iterator[Figure]:
+        yield Figure("up_runner_connections", "Open connections of the request port.", len(self))
+        for reason, count in self.counts.items():
+            text = "Rejected connections and requests, by reason."
+            yield Figure("up_runner_rejected", text, count, {"reason": reason}, "counter")
+
     def handle(self, connection: RequestConnection, request: Request) -> Deferred[bytes]:
-        """Return the line of the answer."""
         host = connection.host
         if request.body:
             return self._handle_protected(connection, request.body)

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from typing import Any
 
 from up.quick_dataclass import dataclass
-
-SPAWNED = "Raspilot spawned"
-ALREADY_RUNNING = "Raspilot already running"
-NOT_RUNNING = "Raspilot not running"
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +20,7 @@ class Problem:
         return self.text
 
 
+NO_ANSWER = "no_answer"
 BUG = Problem("runner_bug", "the runner failed, see its log")
 
 
@@ -50,8 +48,8 @@ class Response:
     def message(self) -> str:
         """Return the prototype's message."""
         if not self.running:
-            return NOT_RUNNING
-        return SPAWNED if self.spawned else ALREADY_RUNNING
+            return "Raspilot not running"
+        return "Raspilot spawned" if self.spawned else "Raspilot already running"
 
     def encode(self, my_address: str, proxy: Mapping[str, object] | None) -> bytes:
         """Return the line for a client that reaches us at `my_address`, with its line feed."""
@@ -69,3 +67,36 @@ class Response:
             **({"host": self.host} if self.host else {}),
         }
         return json.dumps(response, ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"
+
+
+def encode_response(response: Response) -> dict[str, Any]:
+    """Return the fields of a response for another runner of a pool."""
+    return {
+        "pid": response.pid,
+        "ports": None if response.ports is None else dict(response.ports),
+        "spawned": response.spawned,
+        "host": response.host,
+        "code": response.error and response.error.code,
+        "text": response.error and response.error.text,
+    }
+
+
+def decode_response(aircraft: str, fields: Mapping[str, Any]) -> Response:
+    """Return a response; malformed fields give one with `no_answer`."""
+    try:
+        code, ports = fields["code"], fields["ports"]
+        return Response(
+            aircraft,
+            None if fields["pid"] is None else int(fields["pid"]),
+            None if ports is None else {str(name): int(port) for name, port in ports.items()},
+            fields["spawned"] is True,
+            None if code is None else Problem(str(code), str(fields["text"])),
+            str(fields["host"]),
+        )
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError):
+        return failed(aircraft, NO_ANSWER, "the runner of this aircraft gave a malformed answer")
+
+
+def failed(aircraft: str | None, code: str, text: str) -> Response:
+    """Return the response for an instance that does not run."""
+    return Response(aircraft, error=Problem(code, text))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Mapping
 from pathlib import Path
 
 from up.system.pid_file import PidFile, PidFileHeld
@@ -15,23 +14,12 @@ PID_FILE = ".runner.pid"
 MAX_PATH_BYTES = 107 - len("/notify") - 33
 
 
-class RunFolderError(Exception):
-    """The folder cannot be used: a code and one sentence."""
+class CannotStart(Exception):  # noqa: N818 - the text is the message
+    """The runner cannot start: a code and one sentence."""
 
     def __init__(self, code: str, text: str) -> None:
         super().__init__(text)
         self.code = code
-
-
-def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
-    """Return the default folder of sockets and state."""
-    # systemd may name several, separated by colons.
-    runtime = environ.get("RUNTIME_DIRECTORY", "").split(":")[0]
-    if runtime:
-        return Path(runtime)
-    if environ.get("XDG_RUNTIME_DIR"):
-        return Path(environ["XDG_RUNTIME_DIR"], "up-runner")
-    return Path(f"/tmp/up-runner-{uid}")
 
 
 class RunFolder:
@@ -44,11 +32,11 @@ class RunFolder:
     def take(self) -> None:
         """Create the folder, check that it is private and lock it.
 
-        Raises RunFolderError when its path is too long for a socket, when it belongs to another
+        Raises CannotStart when its path is too long for a socket, when it belongs to another
         user or is open to others, or when another runner holds it.
         """
         if len(os.fsencode(self.path)) > MAX_PATH_BYTES:
-            raise RunFolderError(
+            raise CannotStart(
                 "path_too_long",
                 f"the path of the run folder {self.path} is longer than {MAX_PATH_BYTES} bytes: "
                 "too long for the sockets in it",
@@ -58,13 +46,13 @@ class RunFolder:
             self._check_owner()
             self._pid_file.take()
         except PidFileHeld as held:
-            raise RunFolderError(
+            raise CannotStart(
                 "run_folder_in_use",
                 f"another runner (process {held.holder}) uses the run folder {self.path}",
             ) from None
         except OSError as error:
             text = f"the run folder {self.path} cannot be used: {error.strerror or error}"
-            raise RunFolderError("run_folder_unusable", text) from None
+            raise CannotStart("run_folder_unusable", text) from None
 
     def instance(self, name: str) -> Path:
         """Return the folder of one instance; `name` is a checked name and has no leading dot."""
@@ -83,10 +71,10 @@ class RunFolder:
     def _check_owner(self) -> None:
         found = os.lstat(self.path)
         if not stat.S_ISDIR(found.st_mode):
-            raise RunFolderError("not_a_folder", f"the run folder {self.path} is not a folder")
+            raise CannotStart("not_a_folder", f"the run folder {self.path} is not a folder")
         if found.st_uid != os.geteuid():
             text = f"the run folder {self.path} belongs to user {found.st_uid}"
-            raise RunFolderError("foreign_folder", text)
+            raise CannotStart("foreign_folder", text)
         if found.st_mode & 0o077:
             text = f"the run folder {self.path} is open to other users; chmod 700 closes it"
-            raise RunFolderError("open_folder", text)
+            raise CannotStart("open_folder", text)

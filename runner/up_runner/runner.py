@@ -28,34 +28,21 @@ from up.tls.protocol import TLSServerFactory
 from up_cluster.config import ClusterError
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
-from up_runner.instance_host import Application, InstanceHost
+from up_runner.instance_host import InstanceHost
 from up_runner.instances import STOPPING, Instances
-from up_runner.key_starts import KeyStarts
-from up_runner.log_keeper import LogKeeper
-from up_runner.metrics import figures_of
 from up_runner.paths import Paths
-from up_runner.policy import Policy, RestartPolicy
 from up_runner.request import Request
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
-from up_runner.response import Problem, Response
-from up_runner.run_folder import RunFolder, RunFolderError
+from up_runner.response import Response, failed
+from up_runner.run_folder import CannotStart, RunFolder
 
 if TYPE_CHECKING:
     from up_runner.pool.pool import Pool
 
-KILL_DELAY_S = 5.0
 LISTEN_BACKLOG = 1024
 """With a short one a burst of connections delays a phone's by the kernel's repetition of 1 s."""
 _SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
-
-
-class CannotStart(Exception):  # noqa: N818 - the text is the message
-    """The runner cannot start: a code and one sentence."""
-
-    def __init__(self, code: str, text: str) -> None:
-        super().__init__(text)
-        self.code = code
 
 
 class Runner:
@@ -82,24 +69,10 @@ class Runner:
         is_safe = config.i_accept_plain or bool(config.tls)
         self._gate = RequestGate(config.security, accepts_plain=is_safe)
         self._keys = KeyRing(reactor, self._config_folder, self._gate.use)
-        quota = config.key_quota
         self.instance_host = self._host(environ)
-        self.instances = Instances(
-            self.instance_host,
-            policy_of(config),
-            limit=config.instances,
-            kept=config.kept_instances,
-            starts=KeyStarts(reactor, quota.instances, quota.starts_per_minute),
-            on_change=self._on_change,
-        )
+        self.instances = Instances(self.instance_host, config, self._on_change)
         self.server = RequestServer(
-            reactor,
-            self._handle,
-            self._encode,
-            limit=config.connections.limit,
-            address_limit=config.connections.address_limit,
-            idle_s=config.connections.idle_s,
-            gate=self._gate,
+            reactor, self._handle, self._encode, config.connections, self._gate
         )
         self._pool: Pool | None = None
         self._port: Any = None
@@ -114,32 +87,14 @@ class Runner:
         self._read_keys()
         self._check()
         factory = self._factory()
-        try:
-            self._run_folder.take()
-        except RunFolderError as error:
-            raise CannotStart(error.code, str(error)) from None
+        self._run_folder.take()
         try:
             if self._config.pool.servers:
                 self._pool = self._new_pool()
+            self._open(factory)
         except CannotStart:
             self._run_folder.release()
             raise
-        try:
-            self._port = self._reactor.listenTCP(
-                self._config.port,
-                factory,
-                backlog=LISTEN_BACKLOG,
-                interface=self._config.address,
-            )
-        except CannotListenError as error:
-            self._run_folder.release()
-            raise CannotStart(
-                "cannot_listen",
-                f"cannot listen on port {self._config.port}: {error.socketError}; "
-                "set another port in runner.yml or with --port",
-            ) from None
-        if self._config.metrics_port is not None:
-            self._open_metrics(self._config.metrics_port)
         self.instances.open()
         if self._pool is not None:
             self._pool.start()
@@ -170,16 +125,28 @@ class Runner:
         self._keys.stop()
         self._run_folder.release()
 
+    def _open(self, factory: ServerFactory) -> None:
+        port, address = self._config.port, self._config.address
+        try:
+            self._port = self._reactor.listenTCP(port, factory, LISTEN_BACKLOG, address)
+        except CannotListenError as error:
+            raise CannotStart(
+                "cannot_listen",
+                f"cannot listen on port {port}: {error.socketError}; "
+                "set another port in runner.yml or with --port",
+            ) from None
+        if self._config.metrics_port is not None:
+            self._open_metrics(self._config.metrics_port)
+
     def _open_metrics(self, port: int) -> None:
         def page() -> str:
             pool = () if self._pool is None else self._pool.figures()
-            return text_of([*figures_of(self.instances, self.server), *pool])
+            return text_of([*self.instances.figures(), *self.server.figures(), *pool])
 
         try:
             self._metrics_port = serve_metrics(self._reactor, port, page, self._unready_code)
         except CannotListenError as error:
             self._port.stopListening()
-            self._run_folder.release()
             text = f"cannot listen on port {port}: {error.socketError}; set another metrics port"
             raise CannotStart("cannot_listen", text) from None
         port = self._metrics_port.getHost().port
@@ -222,9 +189,6 @@ class Runner:
     def _host(self, environ: Mapping[str, str]) -> InstanceHost:
         config, paths = self._config, self._paths
         black_box = config.mode == "black box"
-        application = Application(
-            paths.python, paths.script, paths.root, config.mode, config.watchdog_s or None
-        )
         instance_config = InstanceConfig(
             paths.base,
             paths.profiles,
@@ -235,19 +199,13 @@ class Runner:
             self._proxy_settings(),
             self._config_folder / KEYS.filename,
         )
-        logs = LogKeeper(paths.logs, config.logs.size, config.logs.keep)
+        inherited = {
+            name: value
+            for name, value in environ.items()
+            if any(fnmatchcase(name, pattern) for pattern in config.environment)
+        }
         return InstanceHost(
-            self._reactor,
-            application,
-            self._run_folder,
-            paths.instances,
-            instance_config,
-            logs,
-            {
-                name: value
-                for name, value in environ.items()
-                if any(fnmatchcase(name, pattern) for pattern in config.environment)
-            },
+            self._reactor, config, paths, self._run_folder, instance_config, inherited
         )
 
     def _proxy_settings(self) -> Mapping[str, Mapping[str, Any]]:
@@ -312,12 +270,10 @@ class Runner:
             return Deferred.fromCoroutine(self._pool.handle(request))
         missing = set(request.labels) - set(self._config.pool.labels)
         if missing and request.action == "spawn":
-            problem = Problem("no_runner", f"this host lacks the labels {', '.join(missing)}")
-            return succeed(Response(request.aircraft, error=problem))
+            text = f"this host lacks the labels {', '.join(missing)}"
+            return succeed(failed(request.aircraft, "no_runner", text))
         if request.action == "status":
-            response: Deferred[Response] = Deferred()
-            response.callback(self.instances.status(request.aircraft))
-            return response
+            return succeed(self.instances.status(request.aircraft))
         return Deferred.fromCoroutine(self.instances.spawn(request))
 
     def _encode(self, response: Response, host: str) -> bytes:
@@ -331,30 +287,3 @@ class Runner:
 
     def _on_change(self) -> None:
         self._notifier.status(self.instances.summary())
-
-
-def policy_of(config: RunnerConfig) -> Policy:
-    """Return the requirements of a configuration for every instance.
-
-    Only a black box stops with its phone or after failures: the others may be in flight.
-    """
-    black_box = config.mode == "black box"
-    restarts, pool = config.restarts, config.pool
-    exit_delay_s = config.exit_delay_s if black_box and config.exit_on_connection_lost else None
-    sleeps = black_box and bool(pool.servers and pool.sleep_after_s) and exit_delay_s is None
-    return Policy(
-        start_limit_s=config.start_limit_s,
-        watchdog_s=config.watchdog_s or None,
-        exit_delay_s=pool.sleep_after_s if sleeps else exit_delay_s,
-        kill_delay_s=KILL_DELAY_S,
-        restarts=RestartPolicy(
-            restarts.delay_s,
-            restarts.max_delay_s,
-            restarts.limit if black_box else None,
-            restarts.period_s,
-        ),
-        always_restart=not black_box,
-        # Without this port no phone can reach it.
-        needed_ports=("general",) if black_box else (),
-        sleeps=sleeps,
-    )

@@ -132,6 +132,11 @@ class Flight:
         assert newest is not None, f"{channel} gets no pulses"
         return newest
 
+    def widths_us(self, channel, since_cycle=0):
+        """Return the widths of a channel's pulses that rose after a cycle."""
+        pulses = self.rig.servo.pulses(channel)
+        return [each.width_us for each in pulses if each.rise_cycle > since_cycle]
+
     def arm(self):
         """Arm by AUX2 as a pilot does."""
         self.sticks(400, throttle=LOW, aux2=LOW)

@@ -10,13 +10,6 @@ A_DEGREE_US = 20
 """What the default gains make of a degree."""
 
 
-@pytest.fixture(scope="module")
-def shared():
-    flight = Flight()
-    flight.run_ms(1500)
-    return flight
-
-
 @pytest.fixture
 def flight(shared):
     """Return a disarmed aircraft in ACRO, level, sticks centred."""

@@ -11,13 +11,6 @@ THROTTLE_NOT_LOW, RECEIVER_INVALID, IMU_INVALID, VETO = 8, 9, 10, 11
 CALIBRATING = 32
 
 
-@pytest.fixture(scope="module")
-def shared():
-    flight = Flight()
-    flight.run_ms(1500)
-    return flight
-
-
 @pytest.fixture
 def calm(shared):
     """Return a disarmed aircraft, throttle low, AUX2 low."""
@@ -73,7 +66,7 @@ def test_disarmed_the_motor_stands_whatever_the_stick_does(calm):
     calm.rig.servo.clear()
     for throttle in (1100, 1500, 2000, 1050):
         calm.sticks(60, throttle=throttle)
-    widths = [each.width_us for each in calm.rig.servo.pulses("throttle")]
+    widths = calm.widths_us("throttle")
     assert len(widths) >= 10
     assert widths == pytest.approx([1000] * len(widths), abs=1)
 

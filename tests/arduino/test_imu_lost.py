@@ -20,36 +20,19 @@ SETUP_BYTES = [
 STICK_US = 1440
 
 
-@pytest.fixture(scope="module")
-def shared():
-    flight = Flight()
-    flight.run_ms(1500)
-    flight.arm()
-    flight.send("s")
-    return flight
-
-
 @pytest.fixture
-def fbw(shared):
+def fbw(shared_armed):
     """Return an armed aircraft in FBW that banks 30 degrees to the right, stick a little left."""
-    imu = shared.rig.imu
-    imu.plug()
-    imu.mend()
-    imu.is_frozen = imu.is_garbage = False
-    shared.sticks(ailerons=STICK_US, throttle=1300, aux1=MIDDLE, aux2=HIGH)
-    if not shared.status().flags & IMU:
-        shared.run_ms(700)
-    shared.tilt(30, seconds=0.3)
-    status = shared.status()
+    flight = shared_armed
+    mend(flight.rig.imu)
+    flight.sticks(ailerons=STICK_US, throttle=1300, aux1=MIDDLE, aux2=HIGH)
+    if not flight.status().flags & IMU:
+        flight.run_ms(700)
+    flight.tilt(30, seconds=0.3)
+    status = flight.status()
     assert status.is_armed and status.flags & IMU
-    assert shared.servo_us("ailerons") < STICK_US - 100
-    return shared
-
-
-def widths(flight, from_cycle):
-    """Return the ailerons' pulses that rose after a cycle."""
-    pulses = flight.rig.servo.pulses("ailerons")
-    return [each.width_us for each in pulses if each.rise_cycle > from_cycle]
+    assert flight.servo_us("ailerons") < STICK_US - 100
+    return flight
 
 
 def unplug(imu):
@@ -80,7 +63,7 @@ def test_a_lost_imu_passes_the_sticks_through_within_100_ms(fbw, loss):
     start = fbw.rig.cycle
     loss(fbw.rig.imu)
     fbw.run_ms(400)
-    passed = widths(fbw, start + (100_000 + FRAME_US) * 16)
+    passed = fbw.widths_us("ailerons", start + (100_000 + FRAME_US) * 16)
     assert len(passed) >= 12
     assert passed == pytest.approx([STICK_US] * len(passed), abs=1)
     status = fbw.status()
@@ -107,7 +90,7 @@ def test_unplugged_at_any_byte_of_a_sample_and_back(fbw, fault):
         imu.fail_at_byte(byte, fault, after_transfers=transfer)
         fbw.run_ms(180)
         assert imu.fault != Fault.NONE, "the fault never came"
-        passed = widths(fbw, start + (110_000 + FRAME_US) * 16)
+        passed = fbw.widths_us("ailerons", start + (110_000 + FRAME_US) * 16)
         assert passed and passed == pytest.approx([STICK_US] * len(passed), abs=1)
         imu.mend()
         fbw.run_ms(250)
@@ -127,7 +110,7 @@ def test_an_imu_that_hangs_at_any_byte_is_freed_at_once(fbw):
         fbw.run_ms(100)
         assert imu.fault == Fault.NONE, f"still hangs after byte {byte} of transfer {transfer}"
         assert imu.transfers > samples + 60
-        assert max(widths(fbw, start)) < STICK_US - 100
+        assert max(fbw.widths_us("ailerons", start)) < STICK_US - 100
     status = fbw.status()
     assert status.is_armed and status.mode_letter == "f"
 
@@ -165,7 +148,7 @@ def test_a_transfer_that_fails_once_is_not_felt(fbw, fault):
         fbw.run_ms(5)
         imu.mend()
         fbw.run_ms(95)
-        assert max(widths(fbw, start)) < STICK_US - 100
+        assert max(fbw.widths_us("ailerons", start)) < STICK_US - 100
     assert fbw.status().mode_letter == "f"
 
 

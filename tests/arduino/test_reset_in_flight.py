@@ -189,7 +189,7 @@ def test_no_other_reset_ever_arms(bootloader, how):
     flight.run_ms(3500)
     flight.rig.servo.clear()
     flight.run_ms(200)
-    throttles = [each.width_us for each in flight.rig.servo.pulses("throttle")]
+    throttles = flight.widths_us("throttle")
     assert throttles == pytest.approx([1000] * len(throttles), abs=1)
     status = flight.status()
     assert not status.is_armed

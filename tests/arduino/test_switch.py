@@ -3,29 +3,21 @@
 import pytest
 
 from tests.arduino.commands import outputs, setpoint
-from tests.arduino.flight import AUTO, FRAME_US, HIGH, LOW, MIDDLE, Flight
+from tests.arduino.flight import AUTO, FRAME_US, HIGH, LOW, MIDDLE
 
 ONE_FRAME_US = FRAME_US + 6_000
 """A frame of the receiver, and the constant 5 ms from its pulse to the servo's."""
 
 
-@pytest.fixture(scope="module")
-def shared():
-    flight = Flight()
-    flight.run_ms(1500)
-    flight.arm()
-    flight.send("s")
-    return flight
-
-
 @pytest.fixture
-def armed(shared):
+def armed(shared_armed):
     """Return an armed aircraft, level, sticks centred, the switch at ACRO, without requests."""
-    shared.rig.receiver.start()
-    shared.tilt(0, seconds=0.2)
-    shared.sticks(ailerons=1500, elevator=1500, rudder=1500, throttle=LOW, aux1=LOW, aux2=HIGH)
-    assert shared.status().is_armed
-    return shared
+    flight = shared_armed
+    flight.rig.receiver.start()
+    flight.tilt(0, seconds=0.2)
+    flight.sticks(ailerons=1500, elevator=1500, rudder=1500, throttle=LOW, aux1=LOW, aux2=HIGH)
+    assert flight.status().is_armed
+    return flight
 
 
 @pytest.fixture
@@ -81,11 +73,7 @@ def test_leaving_auto_takes_over_within_a_frame_whatever_the_raspberry_sends(aut
         if each.channel == "aux1" and each.width_cycles < 1700 * 16
     )
     for channel in ("ailerons", "throttle"):
-        late = [
-            each.width_us
-            for each in auto.rig.servo.pulses(channel)
-            if each.rise_cycle >= moved + ONE_FRAME_US * 16
-        ]
+        late = auto.widths_us(channel, moved + ONE_FRAME_US * 16)
         assert len(late) >= 8
         if channel == "throttle":
             assert late == pytest.approx([1000] * len(late), abs=1)
@@ -103,11 +91,9 @@ def test_the_raspberry_lost_at_auto_leaves_fbw_within_the_lifetime(auto):
     auto.rig.servo.clear()
     auto.run_ms(500)
     ends = sent + (250_000 + ONE_FRAME_US) * 16
-    after = [each.width_us for each in auto.rig.servo.pulses("ailerons") if each.rise_cycle > ends]
+    after = auto.widths_us("ailerons", ends)
     assert after and max(after) < 1520
-    throttles = [
-        each.width_us for each in auto.rig.servo.pulses("throttle") if each.rise_cycle > ends
-    ]
+    throttles = auto.widths_us("throttle", ends)
     assert throttles == pytest.approx([1300] * len(throttles), abs=1)
     assert auto.mode() == "f"
     assert auto.status().is_armed

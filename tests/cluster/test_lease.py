@@ -45,11 +45,7 @@ def test_the_checker(second, what):
     assert violations([first, Held("b", 2, 1.5, 2.0, 3.0)]) == []
 
 
-def test_the_life_of_a_lease(servers):
-    run_in_reactor(life, servers)
-
-
-async def life(servers):
+async def test_the_life_of_a_lease(servers):
     client = await connected(servers)
     bucket = await create_bucket(client)
     seen, current = [], []

@@ -8,7 +8,6 @@ import pytest
 
 from tests.cluster.connected import connected
 from tests.support.nats_servers import NatsServers
-from tests.support.reactor import run_in_reactor
 from up_cluster.errors import UnavailableError, WrongRevisionError
 from up_cluster.jetstream import EXPECTED, api, stored, write
 from up_cluster.object_store import CHUNK_BYTES, ObjectDamagedError, ObjectStore
@@ -20,11 +19,7 @@ def server(tmp_path_factory):
         yield running
 
 
-def test_the_life_of_an_object(server):
-    run_in_reactor(life, server)
-
-
-async def life(server):
+async def test_the_life_of_an_object(server):
     client = await connected(server)
     store = ObjectStore(client, "up-state")
     await store.create(1)

@@ -10,6 +10,7 @@ from pymavlink.dialects.v20 import common as m
 from up.telemetry_frame import Frame
 from up_mavlink.codec import Codec
 from up_mavlink.command_table import of_long
+from up_mavlink.modes import number_of
 from up_mavlink.personas import BY_NAME, PERSONAS
 from up_mavlink.signing import Signing
 from up_mavlink.streams import DEFAULTS_S
@@ -56,12 +57,12 @@ def test_attitude_is_in_radians():
 
 
 def test_the_mode_numbers_of_the_personas_are_unambiguous_where_they_select():
-    numbers = {name: BY_NAME[name].number_of("LOITER") for name in PERSONAS}
+    numbers = {name: number_of(BY_NAME[name], Frame(), "LOITER") for name in PERSONAS}
     assert numbers == {"ardupilot": 12, "px4": 4 << 16 | 3 << 24, "generic": 0}
     for name in ("ardupilot", "px4"):
         persona = BY_NAME[name]
         for mode in ("FBW", "CRUISE", "LOITER", "MISSION", "RETURN", "GUIDED", "LAND", "TAKEOFF"):
-            assert persona.mode_of(persona.number_of(mode)) == mode
+            assert persona.mode_of(number_of(persona, Frame(), mode)) == mode
     assert BY_NAME["ardupilot"].mode_of(16) is None
 
 

@@ -1,15 +1,5 @@
 """Clients that never send a hello: the aircraft `default`."""
 
-import pytest
-
-from tests.proxy.virtual import Bench
-
-
-@pytest.fixture
-def bench():
-    with Bench() as bench:
-        yield bench
-
 
 def test_the_first_byte_shows_a_legacy_client(bench):
     air = bench.air('{"name": "telemetry"}\n')

@@ -4,18 +4,12 @@ from tests.proxy.virtual import Bench
 from up.protocols.proxy_lines import Side
 
 
-def refusal(peer):
-    line = peer.line()
-    peer.expect_closed()
-    return line.split(" reason=")[0]
-
-
 def test_aircraft_names_are_bounded():
     with Bench(aircraft=3) as bench:
         for name in ("a", "b", "c"):
             bench.hello_ground(name)
-        assert refusal(bench.ground("UP1 aircraft=d\n")) == "UP1 error code=full"
-        assert refusal(bench.air("UP1 aircraft=d\n")) == "UP1 error code=full"
+        assert bench.ground("UP1 aircraft=d\n").refusal() == "full"
+        assert bench.air("UP1 aircraft=d\n").refusal() == "full"
         bench.hello_air("a")
         assert len(bench.proxy.registry) == 3
 
@@ -24,8 +18,8 @@ def test_listeners_are_bounded():
     with Bench(listeners=2) as bench:
         for kind in ("command", "listen", "listen"):
             bench.hello_ground(asks=kind)
-        assert refusal(bench.ground("UP1 aircraft=a seat=listen\n")) == "UP1 error code=full"
-        assert refusal(bench.ground("UP1 aircraft=a seat=command\n")) == "UP1 error code=full"
+        assert bench.ground("UP1 aircraft=a seat=listen\n").refusal() == "full"
+        assert bench.ground("UP1 aircraft=a seat=command\n").refusal() == "full"
         bench.hello_ground("b")
 
 
@@ -45,7 +39,7 @@ def test_new_connections_beyond_the_rate_wait_and_delay_nobody():
         (air, _), (ground, _) = bench.hello_air(), bench.hello_ground()
         bench.pass_time(0.5)
         peers = [bench.ground() for _ in range(6)]
-        assert refusal(peers[5]) == "UP1 error code=full"
+        assert peers[5].refusal() == "full"
         assert (acceptor.accepted, acceptor.over_limit) == (2, 1)
         air.say("frame\n")
         assert ground.line() == "frame\n"

@@ -2,15 +2,8 @@
 
 import pytest
 
-from tests.proxy.virtual import Bench
 from up_proxy.connection import HIGH_WATER_BYTES, LINE_MAX_BYTES
 from up_proxy.listener import SEND_BUFFER_BYTES
-
-
-@pytest.fixture
-def bench():
-    with Bench() as bench:
-        yield bench
 
 
 def numbered(first, count, width=200):

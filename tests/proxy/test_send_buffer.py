@@ -9,7 +9,7 @@ from up_proxy.send_buffer import SendBuffer
 def drain(queue, step=7):
     out = b""
     while queue:
-        piece = queue.head(step)
+        piece = queue.head()[:step]
         queue.sent(len(piece))
         out += piece
     return out
@@ -24,7 +24,7 @@ def test_the_oldest_whole_lines_are_dropped():
 
 
 def test_without_a_limit_nothing_is_dropped():
-    queue = SendBuffer()
+    queue = SendBuffer(0)
     for _ in range(1000):
         queue.put(b"x" * 999 + b"\n")
     assert len(queue) == 1_000_000
@@ -54,7 +54,7 @@ def test_any_sequence_sends_whole_lines_in_order(limit, actions):
             queue.put_control(value[0])
             control += 1
         else:
-            piece = queue.head(value)
+            piece = queue.head()[:value]
             queue.sent(len(piece))
             out += piece
     out += drain(queue)

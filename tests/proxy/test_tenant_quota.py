@@ -9,12 +9,6 @@ MEGABYTE = b"x" * 49_999 + b"\n"
 """20 of these lines."""
 
 
-def refusal(peer):
-    line = peer.line()
-    peer.expect_closed()
-    return line.split(" reason=")[0].removeprefix("UP1 error code=")
-
-
 def used(bench):
     return bench.proxy._quota.used()
 
@@ -30,7 +24,7 @@ def test_aircraft_are_bounded():
         first, token = bench.hello_air("a")
         # Counted immediately: the third of a burst is refused.
         bench.hello_air("b")
-        assert refusal(bench.air("UP1 aircraft=c\n")) == "quota"
+        assert bench.air("UP1 aircraft=c\n").refusal() == "quota"
         # A waiting ground is not an aircraft; one that resumes is not another aircraft.
         bench.hello_ground("d")
         bench.hello_air("a", f" token={token}")
@@ -49,14 +43,14 @@ def test_the_count_never_refuses_an_aircraft_that_may_be_in_flight():
         bench.pass_time(4.0)
         bench.hello_air("b")
         bench.hello_air("a")
-        assert refusal(bench.air("UP1 aircraft=c\n")) == "quota"
+        assert bench.air("UP1 aircraft=c\n").refusal() == "quota"
 
 
 def test_grounds_are_bounded_and_the_owner_of_control_resumes_it():
     with Bench(quota={"grounds": 2}) as bench:
         owner, token = bench.hello_ground("a")
         listener, _ = bench.hello_ground("a", asks="listen")
-        assert refusal(bench.ground("UP1 aircraft=b\n")) == "quota"
+        assert bench.ground("UP1 aircraft=b\n").refusal() == "quota"
         bench.hello_ground("a", extra=f" token={token}")
         owner.expect_closed()
         listener.close()
@@ -92,9 +86,9 @@ def busy():
 
 
 def test_bytes_refuse_new_aircraft_and_listeners_and_end_no_connection(busy):
-    assert refusal(busy.air("UP1 aircraft=b\n")) == "quota"
-    assert refusal(busy.ground("UP1 aircraft=a seat=listen\n")) == "quota"
-    assert refusal(busy.ground("UP1 aircraft=a seat=command\n")) == "quota", "control is not free"
+    assert busy.air("UP1 aircraft=b\n").refusal() == "quota"
+    assert busy.ground("UP1 aircraft=a seat=listen\n").refusal() == "quota"
+    assert busy.ground("UP1 aircraft=a seat=command\n").refusal() == "quota", "control is not free"
     air, ground = busy.pair
     air.say("still relayed\n")
     ground.expect("still relayed\n")
@@ -106,8 +100,8 @@ def test_bytes_never_refuse_an_aircraft_that_may_be_in_flight_nor_its_only_groun
     busy.pass_time(30.0)
     air, _ = busy.hello_air("a")
     busy.hello_ground("a")
-    assert refusal(busy.ground("UP1 aircraft=a seat=listen\n")) == "quota"
-    assert refusal(busy.ground("UP1 aircraft=b\n")) == "quota", "its aircraft is not connected"
+    assert busy.ground("UP1 aircraft=a seat=listen\n").refusal() == "quota"
+    assert busy.ground("UP1 aircraft=b\n").refusal() == "quota", "its aircraft is not connected"
     assert not air.closed
 
 
@@ -115,7 +109,7 @@ def test_bytes_count_for_an_hour(busy):
     for peer in busy.pair:
         peer.close()
     pass_minutes(busy, HOUR_S / METER_STEP_S - 1)
-    assert refusal(busy.air("UP1 aircraft=b\n")) == "quota"
+    assert busy.air("UP1 aircraft=b\n").refusal() == "quota"
     pass_minutes(busy, 3)
     assert used(busy).hour_bytes < 1000
     busy.hello_air("b")

@@ -70,6 +70,12 @@ class Peer:
         line, _, self.heard = self.heard.partition(b"\n")
         return line.decode("ascii") + "\n"
 
+    def refusal(self):
+        """Return the code of a refusal, which ends the connection."""
+        line = self.line()
+        self.expect_closed()
+        return line.removeprefix("UP1 error code=").partition(" reason=")[0]
+
     def expect_closed(self):
         self.bench.until(lambda: self.closed, "the end of the connection")
 

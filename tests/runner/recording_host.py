@@ -6,16 +6,17 @@ from pathlib import Path
 from twisted.internet.defer import fail, succeed
 from twisted.internet.task import Clock
 
+from up_runner.config import Restarts
 from up_runner.instance import Instance
 from up_runner.instance_machine import State
 from up_runner.notify_listener import Notification
-from up_runner.policy import Policy, RestartPolicy
+from up_runner.policy import Policy
 from up_runner.process import Identity
 from up_runner.request import Request
 from up_runner.response import Problem
 
-BLACK_BOX = Policy(10.0, 2.0, 60.0, 5.0, RestartPolicy(0.25, 10.0, 5, 60.0), False)
-AIRBORNE = Policy(10.0, 2.0, None, 5.0, RestartPolicy(0.25, 10.0, None, 60.0), True)
+BLACK_BOX = Policy(10.0, 2.0, 60.0, Restarts(), False)
+AIRBORNE = Policy(10.0, 2.0, None, Restarts(), True)
 STOPPING = Problem("stopping", "the runner is stopping")
 PORTS = {"general": 50001, "orientation": 50000}
 

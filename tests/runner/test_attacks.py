@@ -17,7 +17,7 @@ from up.protocols.runner_session import RunnerSession, body_of, to_line
 from up_runner import instances, request_connection, request_server
 from up_runner.config import KeyQuota, RunnerConfig
 from up_runner.instance_machine import State
-from up_runner.key_starts import KeyStarts
+from up_runner.instances import KeyStarts
 from up_runner.request_gate import RequestGate
 from up_runner.response import Response
 from up_runner.runner import Runner

@@ -8,8 +8,8 @@ import pytest
 from up.config import ConfigErrors
 from up_runner.config import RUNNER, RunnerConfig
 from up_runner.paths import Paths, own_root
+from up_runner.policy import policy_of
 from up_runner.pool_config import PoolConfig
-from up_runner.runner import policy_of
 
 HERE = Path("runner.yml")
 
@@ -61,7 +61,6 @@ def test_only_a_black_box_stops_with_its_phone_or_is_given_up():
     for mode in ("flight controller", "auto"):
         policy = policy_of(RunnerConfig(mode=mode))
         assert policy.exit_delay_s is None and policy.always_restart
-        assert policy.restarts.limit is None
     pool = PoolConfig(servers="nats://a", address="here")
     in_pool = RunnerConfig(pool=pool, exit_on_connection_lost=False)
     sleeper = policy_of(in_pool)

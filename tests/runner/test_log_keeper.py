@@ -102,11 +102,10 @@ def test_the_files_of_the_oldest_ended_instances_are_removed(tmp_path):
             os.utime(folder / name, (1000 + age, 1000 + age))
         os.utime(logs.path(name), (1000 + age, 1000 + age))
     (run / ".runner.pid").write_text("")
-    assert prune([run, state], logs, {"a", "c"}, 1) == ["b", "d"]
+    prune([run, state], logs, {"a", "c"}, 1)
     assert sorted(path.name for path in run.iterdir()) == [".runner.pid", "a", "c", "e"]
     assert sorted(path.name for path in state.iterdir()) == ["a", "c", "e"]
     assert sorted(files(logs.folder)) == ["a.log", "c.log", "e.log"]
-    assert prune([run, state], logs, {"a", "c"}, 1) == []
 
 
 def test_foreign_files_in_the_same_folders_are_never_removed(tmp_path):
@@ -121,6 +120,6 @@ def test_foreign_files_in_the_same_folders_are_never_removed(tmp_path):
     (tmp_path / "ours").mkdir()
     (tmp_path / "ours" / "config").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
-    assert prune([tmp_path], logs, ["elsewhere"], 0) == ["ours"]
+    prune([tmp_path], logs, ["elsewhere"], 0)
     left = {"photos", "dpkg.log", "bad name", "elsewhere", "link"}
     assert {path.name for path in tmp_path.iterdir()} == left

@@ -9,7 +9,7 @@ import sys
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from up.system.notify import Notifier
 from up_runner.notify_listener import MAX_BYTES, Notification, NotifyListener, parse
 
@@ -25,90 +25,73 @@ def listening(folder):
     return listener, received
 
 
-def test_it_knows_the_sender(short_path):
-    async def body():
-        listener, received = listening(short_path)
-        Notifier(str(listener.path)).ready("runs")
-        await until(lambda: received)
-        assert received == [(os.getpid(), Notification(ready=True, status="runs"))]
-        code = "from up.system.notify import Notifier; import sys; Notifier(sys.argv[1]).watchdog()"
-        with subprocess.Popen([sys.executable, "-c", code, str(listener.path)]) as child:
-            await until(lambda: len(received) == 2)
-        assert received[1] == (child.pid, Notification(alive=True))
-        listener.close(remove=True)
-        assert not listener.path.exists()
-
-    run_in_reactor(body)
+async def test_it_knows_the_sender(short_path):
+    listener, received = listening(short_path)
+    Notifier(str(listener.path)).ready("runs")
+    await until(lambda: received)
+    assert received == [(os.getpid(), Notification(ready=True))]
+    code = "from up.system.notify import Notifier; import sys; Notifier(sys.argv[1]).watchdog()"
+    with subprocess.Popen([sys.executable, "-c", code, str(listener.path)]) as child:
+        await until(lambda: len(received) == 2)
+    assert received[1] == (child.pid, Notification(alive=True))
+    listener.close(remove=True)
+    assert not listener.path.exists()
 
 
-def test_the_next_runners_socket_takes_over_at_the_same_path(short_path):
-    async def body():
-        received = []
-        first = NotifyListener(reactor, short_path / "notify", lambda *_: received.append(1))
-        first.open()
-        first.close(remove=False)
-        assert first.path.exists()
-        assert Notifier(str(first.path)).ready() is False
-        second = NotifyListener(reactor, short_path / "notify", lambda *_: received.append(2))
-        second.open()
-        assert Notifier(str(second.path)).ready() is True
-        await until(lambda: received)
-        assert received == [2]
-        second.close(remove=True)
-
-    run_in_reactor(body)
+async def test_the_next_runners_socket_takes_over_at_the_same_path(short_path):
+    received = []
+    first = NotifyListener(reactor, short_path / "notify", lambda *_: received.append(1))
+    first.open()
+    first.close(remove=False)
+    assert first.path.exists()
+    assert Notifier(str(first.path)).ready() is False
+    second = NotifyListener(reactor, short_path / "notify", lambda *_: received.append(2))
+    second.open()
+    assert Notifier(str(second.path)).ready() is True
+    await until(lambda: received)
+    assert received == [2]
+    second.close(remove=True)
 
 
-def test_drained_it_receives_immediately(short_path):
-    async def body():
-        listener, received = listening(short_path)
-        notifier = Notifier(str(listener.path))
-        for _ in range(5):
-            notifier.watchdog()
-        listener.drain()
-        assert len(received) == 5
-        listener.close(remove=True)
-        listener.drain()
-
-    run_in_reactor(body)
+async def test_drained_it_receives_immediately(short_path):
+    listener, received = listening(short_path)
+    notifier = Notifier(str(listener.path))
+    for _ in range(5):
+        notifier.watchdog()
+    listener.drain()
+    assert len(received) == 5
+    listener.close(remove=True)
+    listener.drain()
 
 
-def test_received_descriptors_are_closed(short_path):
-    async def body():
-        listener, received = listening(short_path)
-        before = count_descriptors()
-        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as line:
-            for _ in range(20):
-                line.sendmsg(
-                    [b"WATCHDOG=1"],
-                    [(socket.SOL_SOCKET, socket.SCM_RIGHTS, array.array("i", [0, 1, 2]))],
-                    0,
-                    str(listener.path),
-                )
-                listener.drain()
-        assert count_descriptors() == before
-        assert len(received) + listener.dropped == 20
-        listener.close(remove=True)
-
-    run_in_reactor(body)
+async def test_received_descriptors_are_closed(short_path):
+    listener, received = listening(short_path)
+    before = count_descriptors()
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as line:
+        for _ in range(20):
+            line.sendmsg(
+                [b"WATCHDOG=1"],
+                [(socket.SOL_SOCKET, socket.SCM_RIGHTS, array.array("i", [0, 1, 2]))],
+                0,
+                str(listener.path),
+            )
+            listener.drain()
+    assert count_descriptors() == before
+    assert len(received) == 20
+    listener.close(remove=True)
 
 
-def test_a_datagram_that_is_too_long_is_dropped_and_counted(short_path):
-    async def body():
-        listener, received = listening(short_path)
-        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as line:
-            line.sendto(b"READY=1\n" + b"x" * 10_000, str(listener.path))
-        listener.drain()
-        assert (received, listener.dropped) == ([], 1)
-        listener.close(remove=True)
-
-    run_in_reactor(body)
+async def test_a_datagram_that_is_too_long_is_dropped(short_path):
+    listener, received = listening(short_path)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as line:
+        line.sendto(b"READY=1\n" + b"x" * 10_000, str(listener.path))
+    listener.drain()
+    assert received == []
+    listener.close(remove=True)
 
 
 def test_the_fields_of_sd_notify_and_the_additions():
-    assert parse(b"READY=1\nSTATUS=12 modules run") == Notification(
-        ready=True, status="12 modules run"
-    )
+    assert parse(b"READY=1\nSTATUS=12 modules run") == Notification(ready=True)
     assert parse(b"WATCHDOG=1\nX_UP_PHONE=1") == Notification(alive=True, phone=True)
     assert parse(b"STOPPING=1") == Notification(stopping=True)
     assert parse(b"X_UP_PHONE=0\n") == Notification(phone=False)
@@ -143,9 +126,6 @@ def test_no_bytes_break_it(data):
     notification = parse(data)
     for port in (notification.ports or {}).values():
         assert 1 <= port <= 65535
-    assert notification.status is None or (
-        notification.status.isprintable() and len(notification.status) <= 200
-    )
 
 
 def test_it_reads_no_more_than_its_limit():

@@ -16,7 +16,8 @@ from tests.support.tools import need_root
 from up.version import VERSION
 from up_runner.config import RunnerConfig
 from up_runner.main import main
-from up_runner.runner import CannotStart, Runner
+from up_runner.run_folder import CannotStart
+from up_runner.runner import Runner
 
 PROGRAM = Path(sys.executable).with_name("up-runner")
 

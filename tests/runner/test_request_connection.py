@@ -14,6 +14,7 @@ from twisted.internet.testing import StringTransport
 from up.protocols.aircraft_sessions import Key
 from up.protocols.pairing import Pairing
 from up.protocols.runner_session import RunnerSession, body_of, to_line
+from up_runner.config import Connections
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
@@ -43,12 +44,12 @@ class Port:
         self.waiting = []
         self.at_once = at_once
         self.gate = RequestGate("auto", accepts_plain=accepts_plain)
-        defaults = {"limit": 10, "address_limit": 10, "idle_s": 15.0, "gate": self.gate}
         self.server = RequestServer(
             self.clock,
             self.ask,
             lambda response, host: response.encode(host, None),
-            **(defaults | limits),
+            Connections(**{"limit": 10, "address_limit": 10, **limits}),
+            self.gate,
         )
 
     def ask(self, request):

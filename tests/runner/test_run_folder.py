@@ -10,12 +10,13 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_root
-from up_runner.run_folder import MAX_PATH_BYTES, RunFolder, RunFolderError, default_run_folder
+from up_runner.paths import default_run_folder
+from up_runner.run_folder import MAX_PATH_BYTES, CannotStart, RunFolder
 
 
 @contextlib.contextmanager
 def refused(*codes):
-    with pytest.raises(RunFolderError) as error:
+    with pytest.raises(CannotStart) as error:
         yield
     assert error.value.code in codes
 

@@ -1,6 +1,5 @@
 """The systemd unit and the Upstart job."""
 
-import configparser
 import re
 import subprocess
 import sys
@@ -8,30 +7,27 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.sandbox import verify
+from tests.support import sandbox
 from tests.support.tools import need_tool
 
 FOLDER = Path(__file__).parents[2] / "runner"
-UNIT = FOLDER / "up-runner.service"
+UNIT = "runner/up-runner.service"
 JOB = FOLDER / "up-runner.conf"
 PROGRAM = Path(sys.executable).with_name("up-runner")
 
 
 @pytest.fixture
 def service():
-    parser = configparser.ConfigParser(strict=True)
-    parser.optionxform = str
-    parser.read_string(UNIT.read_text(encoding="utf-8"))
-    assert parser["Unit"]["StartLimitIntervalSec"] == "0"
-    return parser["Service"]
+    return sandbox.service(UNIT)
 
 
 def test_systemd_finds_no_fault(tmp_path):
     need_tool("systemd-analyze", "systemd")
-    verify("runner/up-runner.service", PROGRAM, tmp_path)
+    sandbox.verify(UNIT, PROGRAM, tmp_path)
 
 
 def test_it_is_supervised_and_restarted_for_ever(service):
+    assert "\nStartLimitIntervalSec=0\n" in (FOLDER / "up-runner.service").read_text("utf-8")
     assert service["Type"] == "notify"
     assert float(service["WatchdogSec"]) > 0
     assert service["Restart"] == "always"

@@ -17,7 +17,6 @@ class Eeprom:
         self._handle = handle
 
     def read(self, start: int = 0, size: int = SIZE) -> bytes:
-        """Return its content."""
         cells = self._library.rig_eeprom(self._handle)
         return bytes(cells[start : min(start + size, SIZE)])
 

@@ -98,7 +98,6 @@ class Imu:
         self._library.rig_imu_plug(self._handle, True)
 
     def fail(self, fault: Fault) -> None:
-        """Start a fault now."""
         self._library.rig_imu_fault(self._handle, int(fault), 0, 0, True)
 
     def fail_at_byte(self, byte: int, fault: Fault, *, after_transfers: int = 0) -> None:
@@ -119,28 +118,20 @@ class Imu:
         self._library.rig_imu_identity(self._handle, who_am_i)
 
     def register(self, number: int) -> int:
-        """Return the program's value of a register."""
         return int(self._library.rig_imu_register(self._handle, number))
 
     @property
     def fault(self) -> Fault:
-        """Return the fault that is there now."""
         return Fault(self._library.rig_imu_fault_now(self._handle))
 
     @property
     def samples(self) -> int:
-        """Return how many samples were taken."""
         return int(self._library.rig_imu_samples(self._handle))
 
     @property
     def transfers(self) -> int:
         """Return how many starts the bus has seen."""
         return int(self._library.rig_imu_transfers(self._handle))
-
-    @property
-    def bus_bytes(self) -> int:
-        """Return how many bytes went over the bus, addresses included."""
-        return int(self._library.rig_twi_bytes(self._handle))
 
     def raise_failure(self) -> None:
         """Raise the exception of the motion's function in the last run."""

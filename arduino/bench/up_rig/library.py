@@ -45,7 +45,6 @@ class Meter(ctypes.Structure):
     _fields_ = [
         ("interrupt_cycles", ctypes.c_uint64),
         ("counts", ctypes.c_uint64 * 26),
-        ("longest", ctypes.c_uint32 * 26),
         ("longest_off", ctypes.c_uint32),
         ("longest_off_pc", ctypes.c_uint16),
         ("sleep_cycles", ctypes.c_uint64),
@@ -169,7 +168,6 @@ def _declare(library: ctypes.CDLL) -> None:
     declare("imu_fault_now", u8, rig)
     declare("imu_samples", u64, rig)
     declare("imu_transfers", u64, rig)
-    declare("twi_bytes", u64, rig)
     declare("eeprom", ctypes.POINTER(u8), rig)
     declare("eeprom_writes", u64, rig)
     declare("eeprom_is_writing", ctypes.c_bool, rig)

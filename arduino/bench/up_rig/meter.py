@@ -26,7 +26,6 @@ class Measures:
 
     interrupt_cycles: int
     interrupts: dict[str, int]
-    longest_interrupts: dict[str, int]
     longest_off_cycles: int
     longest_off_at: int
     sleep_cycles: int
@@ -45,7 +44,6 @@ def read_measures(library: ctypes.CDLL, handle: Handle) -> Measures:
     return Measures(
         interrupt_cycles=meter.interrupt_cycles,
         interrupts={name: meter.counts[at] for at, name in VECTOR_NAMES.items()},
-        longest_interrupts={name: meter.longest[at] for at, name in VECTOR_NAMES.items()},
         longest_off_cycles=meter.longest_off,
         longest_off_at=meter.longest_off_pc,
         sleep_cycles=meter.sleep_cycles,

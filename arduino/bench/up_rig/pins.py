@@ -20,11 +20,10 @@ def pin(name: str) -> int:
 
 @dataclass(frozen=True, slots=True)
 class PinMap:
-    """The chip's pins of the receiver's channels, of the servos and of the LED."""
+    """The chip's pins of the receiver's channels and of the servos."""
 
     receiver: dict[str, int]
     servos: dict[str, int]
-    led: int = pin("D13")
 
 
 def _map(names: tuple[str, ...], pins: str) -> dict[str, int]:

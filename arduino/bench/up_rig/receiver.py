@@ -87,7 +87,6 @@ class Receiver:
                 self.edge(each, self._library.rig_cycle(self._handle), _HIGH)
 
     def resume(self, channel: str) -> None:
-        """Resume a stopped channel with the next frame."""
         if self._held.pop(channel, _LOW) == _HIGH:
             self.edge(channel, self._library.rig_cycle(self._handle), _LOW)
 
@@ -96,7 +95,6 @@ class Receiver:
         self._library.rig_pin_edge(self._handle, cycle, self._pins[channel], level)
 
     def level(self, channel: str) -> int:
-        """Return the present level at the chip's pin of a channel."""
         return int(self._library.rig_pin_level(self._handle, self._pins[channel]))
 
     def glitch(self, channel: str, at_us: float, width_us: float, *, level: int = _HIGH) -> None:

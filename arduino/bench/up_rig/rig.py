@@ -83,7 +83,6 @@ class Rig:
 
     @property
     def now_us(self) -> float:
-        """Return the time in microseconds."""
         return self.cycle / CYCLES_PER_US
 
     def run_until_us(self, time_us: float) -> None:
@@ -91,7 +90,6 @@ class Rig:
         self.run_until_cycle(round(time_us * CYCLES_PER_US))
 
     def run_us(self, duration_us: float) -> None:
-        """Run for a duration. Raises ``CrashError``."""
         self.run_until_cycle(self.cycle + round(duration_us * CYCLES_PER_US))
 
     def run_until_cycle(self, cycle: int) -> None:
@@ -158,7 +156,6 @@ class Rig:
         return read_measures(self._library, self._handle)
 
     def clear_measures(self) -> None:
-        """Restart the measurements."""
         self._library.rig_clear_measures(self._handle)
 
     def mark_stack(self) -> None:
@@ -167,11 +164,8 @@ class Rig:
 
     def untouched_ram(self) -> int:
         """Return the bytes between the variables and the lowest place the stack ever wrote."""
-        start = (
-            self._symbol("__heap_start").address
-            if "__heap_start" in self.firmware.symbols
-            else self._symbol("_end").address
-        )
+        has_heap = "__heap_start" in self.firmware.symbols
+        start = self._symbol("__heap_start" if has_heap else "_end").address
         data = self._library.rig_data(self._handle)
         end = start
         while end < RAM_START + RAM_SIZE and data[end] == STACK_PATTERN:

@@ -24,7 +24,6 @@ class Serial:
         self._handle = handle
 
     def set_baud(self, baud: float) -> None:
-        """Set the rate of the bytes that go to the chip."""
         self._library.rig_uart_baud(self._handle, baud)
 
     def write(self, data: bytes, *, broken: bool = False) -> None:
@@ -45,7 +44,6 @@ class Serial:
         return int(self._library.rig_overruns(self._handle))
 
     def read(self) -> bytes:
-        """Return the bytes received since the last call."""
         return bytes(each.value for each in self.read_stamped())
 
     def read_stamped(self) -> list[SentByte]:

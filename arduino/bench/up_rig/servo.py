@@ -18,7 +18,6 @@ class Pulse:
 
     @property
     def width_us(self) -> float:
-        """Return its width in microseconds."""
         return self.width_cycles / 16
 
 

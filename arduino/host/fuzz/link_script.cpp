@@ -104,7 +104,7 @@ class Conversation {
     if (left == 0) return script;
     const char type = static_cast<char>(*script++);
     CommandDefinition command;
-    const bool is_known = CommandExecutor::find(type, command);
+    const bool is_known = find_command(type, command);
     uint8_t payload[MAX_COMMAND] = {};
     const size_t size = std::min<size_t>(is_known ? command.size : 3, left - 1);
     std::copy(script, script + size, payload);

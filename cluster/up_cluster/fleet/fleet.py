@@ -241,7 +241,6 @@ class Fleet:
         return rows
 
     async def _keys(self, kind: str) -> dict[str, Entry]:
-        """Return the present entries by aircraft."""
         found: dict[str, Entry] = {}
         done: Deferred[None] = Deferred()
 

@@ -67,30 +67,23 @@ def make_parser() -> OptionParser:
         return verb
 
     add("list", "list the members and their aircraft", lambda f, o: f.overview(o.wait), list_table)
-    where = add("where", "show where an aircraft is", _where, aircraft_table)
+    text = "show where an aircraft is"
+    where = add("where", text, lambda f, o: f.where(o.aircraft, o.wait), aircraft_table)
     where.add_argument("aircraft", type=_aircraft, metavar="AIRCRAFT")
     usage = "show CPU time, memory, data of members and aircraft, and the tenant's quotas"
     add("usage", usage, lambda f, o: f.usage(o.wait), usage_table)
-    drain = add("drain", "let the aircraft of a member go elsewhere, and wait", _drain, _show_drain)
+    text = "let the aircraft of a member go elsewhere, and wait"
+    drain = add("drain", text, lambda f, o: f.drain(o.member, o.wait), _show_drain)
     drain.add_argument("member", type=_member, metavar="MEMBER", help="its id in 'up-fleet list'")
     drain.set_defaults(wait=60.0)
-    kick = add("kick", "disconnect an aircraft, or stop its instance", _kick, _show_kick)
+    text = "disconnect an aircraft, or stop its instance"
+    kick = add("kick", text, lambda f, o: f.kick(o.aircraft, o.kind), _show_kick)
     kick.add_argument("aircraft", type=_aircraft, metavar="AIRCRAFT")
-    kick.add_argument("--instance", action="store_true", help="stop its instance in the pool")
+    kick.add_argument(
+        "--instance", dest="kind", action="store_const", const="instance", default="aircraft",
+        help="stop its instance in the pool",
+    )  # fmt: skip
     return parser
-
-
-async def _where(fleet: Fleet, options: argparse.Namespace) -> Any:
-    return await fleet.where(options.aircraft, options.wait)
-
-
-async def _drain(fleet: Fleet, options: argparse.Namespace) -> Any:
-    return await fleet.drain(options.member, options.wait)
-
-
-async def _kick(fleet: Fleet, options: argparse.Namespace) -> Any:
-    kind = "instance" if options.instance else "aircraft"
-    return await fleet.kick(options.aircraft, kind)
 
 
 def _show_drain(answer: dict[str, Any]) -> list[str]:

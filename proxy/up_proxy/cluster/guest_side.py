@@ -39,7 +39,6 @@ class GuestSide(Owner):
         self.accesses: dict[int, Access] = {}
         self._asking: set[int] = set()
         """Grounds that the home does not know yet."""
-        self.home = ""
         self.fence = 0
         """The highest fencing number seen."""
 
@@ -55,7 +54,6 @@ class GuestSide(Owner):
         self._asking.add(ground.number)
 
     def greet(self, ground: Connection) -> None:
-        """Send a new ground the current state."""
         ground.send(self._presence.encode())
         ground.send(self._control.encode())
 
@@ -99,9 +97,9 @@ class GuestSide(Owner):
         self._asking.discard(number)
         self._session.send_list()
 
-    def on_beacon(self, node: str, fence: int, beacon: Beacon, me: str) -> None:
+    def on_beacon(self, fence: int, beacon: Beacon, me: str) -> None:
         """Follow a home; the request of a ground that it admitted is over."""
-        self.home, self.fence, self._beacon_s = node, fence, self._poller.now_s
+        self.fence, self._beacon_s = fence, self._poller.now_s
         for number in self._asking.intersection(beacon.known.get(me, ())):
             self._asking.discard(number)
             self.accesses[number] = Access.LISTEN

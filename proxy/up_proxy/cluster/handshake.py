@@ -14,26 +14,12 @@ from up_proxy.aircraft import AircraftSession
 from up_proxy.cluster.session import ClusterSession
 from up_proxy.connection import Connection, Owner
 from up_proxy.handshake import LEGACY_AIRCRAFT, Handshake, check_name, new_token
-from up_proxy.poller import Poller
-from up_proxy.registry import AircraftRegistry
-from up_proxy.tenant_quota import TenantQuota
 
 _log = UpLogger.get_logger("proxy")
 
 
 class ClusterHandshake(Handshake):
     """Claims an aircraft's lease before it is admitted; a ground without a home is a guest."""
-
-    def __init__(
-        self,
-        side: Side,
-        registry: AircraftRegistry,
-        poller: Poller,
-        quota: TenantQuota,
-        max_listeners: int,
-    ) -> None:
-        super().__init__(side, registry, poller, quota)
-        self._max_listeners = max_listeners
 
     def _admit(self, connection: Connection, hello: Hello) -> None:
         session = self._session(hello.aircraft)
@@ -107,7 +93,7 @@ class ClusterHandshake(Handshake):
         return session
 
     def _check_guests(self, session: ClusterSession) -> None:
-        if len(session.guests.connections) > self._max_listeners:
+        if len(session.guests.connections) > self._registry.limits.listeners:
             raise HelloError(FULL, "too many grounds for this aircraft")
 
     def _wait(

@@ -1,10 +1,12 @@
 """This proxy as a node of a cluster: its NATS client, its leases, its heartbeat."""
 
+import socket
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import psutil
 from twisted.internet.defer import Deferred, DeferredList
 
 from up.log import Limited, UpLogger
@@ -12,9 +14,8 @@ from up.protocols.proxy_lines import Side
 from up.system.clock import Timer, cancel
 from up_cluster.config import ClusterConfig
 from up_cluster.lease import Lease
-from up_cluster.membership import Membership, word
+from up_cluster.membership import Membership, usage_of, word
 from up_cluster.nats_protocol import Message
-from up_proxy.cluster.fleet_actions import FleetActions
 from up_proxy.cluster.handshake import ClusterHandshake
 from up_proxy.cluster.node_messages import (
     Envelope,
@@ -27,7 +28,7 @@ from up_proxy.cluster.node_messages import (
 from up_proxy.cluster.poller_reactor import PollerReactor
 from up_proxy.cluster.sender_ages import SenderAges
 from up_proxy.cluster.session import ClusterSession
-from up_proxy.metrics import Metric, Samples
+from up_proxy.metrics import Metric, Row, Samples, named, one
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
 from up_proxy.tenant_quota import TenantQuota
@@ -49,12 +50,10 @@ class ClusterNode:
         poller: Poller,
         config: ClusterConfig,
         folder: Path,
-        max_listeners: int,
         quota: TenantQuota,
     ) -> None:
         self._reactor = reactor
         self._poller = poller
-        self._max_listeners = max_listeners
         self.quota = quota
         self._sessions: set[ClusterSession] = set()
         self._member = Membership(
@@ -68,8 +67,10 @@ class ClusterNode:
         self._member.on_connected = self._on_connected
         self._member.on_ready = self._on_ready
         self.id = self._member.id
-        self._fleet = FleetActions(reactor, self._sessions, self.drain, quota)
-        self._member.actions.update(self._fleet.actions)
+        self._member.actions.update(
+            report=self._report, drain=self._on_drain_request, kick=self._kick
+        )
+        self._is_draining = False
         self.on_drain: Callable[[], object] = lambda: None
         self.leases = self._member.leases
         self._client = self._member.client
@@ -83,7 +84,6 @@ class ClusterNode:
 
     @property
     def is_ready(self) -> bool:
-        """Return whether leases can be had."""
         return self._member.is_ready
 
     def start(self) -> None:
@@ -106,6 +106,41 @@ class ClusterNode:
         for session in list(self._sessions):
             session.drain()
 
+    # What `up-fleet` requests.
+
+    def _homes(self) -> list[ClusterSession]:
+        return [each for each in self._sessions if each.is_home]
+
+    def _report(self, message: dict[str, Any]) -> dict[str, Any]:
+        guests = [each for each in self._sessions if not each.is_home and each.own_grounds]
+        return {
+            "kind": "proxy",
+            "host": socket.gethostname(),
+            "is_draining": self._is_draining,
+            "aircraft": [_row(each) for each in self._homes()],
+            "guests": [_row(each) for each in guests],
+            "usage": self.quota.used()._asdict(),
+            "quota": self.quota.limits,
+            **usage_of(psutil.Process()),
+        }
+
+    def _on_drain_request(self, message: dict[str, Any]) -> dict[str, Any]:
+        names = [each.name for each in self._homes()]
+        if not self._is_draining:
+            self._is_draining = True
+            # Not in the callback of a connection that the poller is serving.
+            self._reactor.callLater(0, self.drain)
+        return {"leaving": names}
+
+    def _kick(self, message: dict[str, Any]) -> dict[str, Any]:
+        for each in self._homes():
+            if each.name == message.get("aircraft"):
+                self._reactor.callLater(0, each.kick)
+                return {"stopping": each.name}
+        return {"code": "unknown_aircraft"}
+
+    # What the sessions use.
+
     def new_session(self, name: str, poller: Poller, limited: Limited) -> ClusterSession:
         session = ClusterSession(self, name, poller, limited)
         self._sessions.add(session)
@@ -115,13 +150,12 @@ class ClusterNode:
         self._sessions.discard(session)
 
     def new_handshake(self, side: Side, registry: AircraftRegistry) -> ClusterHandshake:
-        return ClusterHandshake(side, registry, self._poller, self.quota, self._max_listeners)
+        return ClusterHandshake(side, registry, self._poller, self.quota)
 
     def subject(self, aircraft: str) -> str:
         return self._member.subject(word(aircraft))
 
     def key(self, aircraft: str) -> str:
-        """Return the key of an aircraft's lease."""
         return self._member.key("aircraft", aircraft)
 
     def send(self, subject: str, fence: int, ground: int, body: bytes) -> None:
@@ -157,28 +191,22 @@ class ClusterNode:
         self._releases.add(done)
         done.addBoth(lambda _: self._releases.discard(done))
 
-    def metrics(self) -> list[Metric]:
-        def one(value: float) -> Samples:
-            return [({}, value)]
-
+    def metrics(self) -> Iterator[Metric]:
         refused: Samples = [({"code": code}, count) for code, count in self.refused.items()]
-        counters: list[tuple[str, str, Samples]] = [
+        counters: list[Row] = [
             ("stale", "Messages of other nodes dropped as old or overtaken.", one(self.stale)),
             ("fenced", "Messages of a former home or to another one.", one(self.fenced)),
             ("malformed", "Malformed messages of other nodes.", one(self._malformed)),
             ("dropped", "Messages to NATS that were dropped.", one(self._client.dropped)),
             ("refused", "Changes of control that were not granted, by code.", refused),
         ]
-        gauges: list[tuple[str, str, Samples]] = [
+        gauges: list[Row] = [
             ("connected", "1 while NATS is connected.", one(int(self._client.is_connected))),
             ("nodes", "Other nodes heard within two minutes.", one(len(self._ages))),
             ("leases", "Aircraft whose home is this node.", one(len(self.leases))),
-            ("draining", "1 after a drain.", one(int(self._fleet.is_draining))),
+            ("draining", "1 after a drain.", one(int(self._is_draining))),
         ]
-        return [
-            *((f"up_proxy_cluster_{n}_total", "counter", text, v) for n, text, v in counters),
-            *((f"up_proxy_cluster_{n}", "gauge", text, v) for n, text, v in gauges),
-        ]
+        return named("up_proxy_cluster", counters, gauges)
 
     def _is_stale(self, envelope: Envelope) -> bool:
         now_s = self._reactor.seconds()
@@ -206,3 +234,13 @@ class ClusterNode:
 
     def _on_ready(self) -> None:
         _log.info("leases are available", code="cluster_ready", node=self.id)
+
+
+def _row(session: ClusterSession) -> dict[str, Any]:
+    state = "online" if session.air_lease.owner is not None else "offline"
+    return {
+        "aircraft": session.name,
+        "state": state if session.is_home else "guest",
+        "grounds": session.own_grounds,
+        "rx_bytes": session.air_bytes + session.ground_bytes,
+    }

@@ -16,16 +16,12 @@ class RemoteGround(Connection):
     paused, because the aircraft is slow, loses its lines.
     """
 
-    __slots__ = ("_send", "node", "remote_number")
+    __slots__ = ("_send",)
 
-    def __init__(
-        self, node: str, listed: ListedGround, now_s: float, send: Callable[[bytes], object]
-    ) -> None:
+    def __init__(self, listed: ListedGround, now_s: float, send: Callable[[bytes], object]) -> None:
         self._send = send
         self._queue = None
         self._tls = None
-        self.node = node
-        self.remote_number = listed.number
         self.owner = Owner()
         self.host = listed.host
         self.token = listed.token

@@ -1,6 +1,7 @@
 """The grounds of other nodes at the home of an aircraft, as those nodes list them."""
 
 from collections.abc import Callable, Collection
+from functools import partial
 
 from up.protocols.proxy_lines import Access, ControlGranted, ControlLost
 from up_proxy.cluster.home_ground_side import HomeGroundSide
@@ -32,14 +33,12 @@ class RemoteGrounds:
 
     @property
     def is_listed(self) -> bool:
-        """Whether another node sends lists."""
         return bool(self._listed_s)
 
     def get(self, node: str, number: int) -> RemoteGround | None:
         return self._by_key.get((node, number))
 
     def numbers(self) -> dict[str, list[int]]:
-        """Return the numbers of the grounds at each node."""
         found: dict[str, list[int]] = {}
         for node, number in self._by_key:
             found.setdefault(node, []).append(number)
@@ -62,7 +61,7 @@ class RemoteGrounds:
                 self._correct(known, each.access)
                 continue
             is_new = True
-            remote = RemoteGround(node, each, now_s, self._line_sender(node, number))
+            remote = RemoteGround(each, now_s, partial(self._send_line, node, number))
             self._by_key[node, number] = remote
             self._admit(remote, each.access, each.token)
         return is_new
@@ -83,8 +82,8 @@ class RemoteGrounds:
             line = ControlGranted(remote.token) if is_owner else ControlLost()
             remote.send(line.encode())
 
-    def _line_sender(self, node: str, number: int) -> Callable[[bytes], None]:
-        return lambda line: self._send(number, GroundLine(node, line).encode())
+    def _send_line(self, node: str, number: int, line: bytes) -> None:
+        self._send(number, GroundLine(node, line).encode())
 
     def _end(self, node: str, keep: Collection[int] = ()) -> None:
         gone = [key for key in self._by_key if key[0] == node and key[1] not in keep]

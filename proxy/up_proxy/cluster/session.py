@@ -8,8 +8,6 @@ from up.log import Limited, UpLogger
 from up.protocols.control_lease import State
 from up.protocols.proxy_lines import (
     PREFIX,
-    TAKEN,
-    TOKEN,
     Access,
     ControlGranted,
     ControlLost,
@@ -25,7 +23,7 @@ from up_proxy.cluster.node_messages import Beacon, Envelope, GroundLine, GroundL
 from up_proxy.cluster.remote_ground import RemoteGround
 from up_proxy.cluster.remote_grounds import RemoteGrounds
 from up_proxy.connection import Connection
-from up_proxy.handshake import new_token
+from up_proxy.handshake import new_token, refusal
 from up_proxy.poller import Poller
 
 if TYPE_CHECKING:
@@ -108,7 +106,7 @@ class ClusterSession(AircraftSession):
             assert token is not None
             return token
         if not self.air_lease.is_free(self._poller.tick()):
-            raise _refusal(token)
+            raise refusal(token)
         self._take()
         token = new_token()
         await self.write(air=token)
@@ -161,7 +159,7 @@ class ClusterSession(AircraftSession):
             if air is not None and air == token:
                 return data
             if air is not None and record is not None and record.node != self._node.id:
-                raise _refusal(token)
+                raise refusal(token)
             return {"air": fresh, "control": data.get("control")}
 
         lease = await self._node.leases.acquire(self._node.key(self.name), decide, self._on_lease)
@@ -326,7 +324,7 @@ class ClusterSession(AircraftSession):
                 self.guests.on_line(message.ground, said.line)
         else:
             is_new = message.fence > self.guests.fence
-            self.guests.on_beacon(message.node, message.fence, said, self._node.id)
+            self.guests.on_beacon(message.fence, said, self._node.id)
             if is_new and self.guests.connections:
                 self.send_list()
 
@@ -362,12 +360,6 @@ class ClusterSession(AircraftSession):
         if lease is not None:
             self._node.release(lease, {**lease.data, "air": None})
             self._become_guest()
-
-
-def _refusal(token: str | None) -> HelloError:
-    if token is None:
-        return HelloError(TAKEN, "an aircraft of this name is connected")
-    return HelloError(TOKEN, "this token is not that of the connected aircraft")
 
 
 def _ignore_unavailable(failure: Any) -> None:

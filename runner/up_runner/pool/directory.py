@@ -14,9 +14,8 @@ from up_cluster.key_value import Entry, Watch
 from up_cluster.lease import Record, parse_record
 from up_cluster.membership import Membership, aircraft_of, parse
 from up_cluster.nats_protocol import Message
-from up_runner.pool.messages import decode_request
 from up_runner.pool.placement import FRESH_S, RunnerInfo
-from up_runner.request import Request
+from up_runner.request import Request, decode_request
 
 
 class PoolDirectory:

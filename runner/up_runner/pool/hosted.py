@@ -24,9 +24,8 @@ from up_runner.instance_config import ConfigurationRefused
 from up_runner.instance_host import InstanceHost
 from up_runner.instances import STOPPING, Instances
 from up_runner.policy import ASLEEP
-from up_runner.pool.messages import encode_request
 from up_runner.pool.state_files import STATE_HOME, StateFiles, Store
-from up_runner.request import Request
+from up_runner.request import Request, encode_request
 from up_runner.response import Problem
 
 MARGIN_S = 0.5

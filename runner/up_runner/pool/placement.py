@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable
+from dataclasses import asdict
 from typing import Any
 
 from up.quick_dataclass import dataclass
@@ -24,12 +25,7 @@ class RunnerInfo:
     labels: frozenset[str]
 
     def as_json(self) -> dict[str, Any]:
-        return {
-            "id": self.id,
-            "host": self.host,
-            "free": self.free,
-            "labels": sorted(self.labels),
-        }
+        return {**asdict(self), "labels": sorted(self.labels)}
 
     @classmethod
     def parse(cls, fields: dict[str, Any]) -> RunnerInfo:

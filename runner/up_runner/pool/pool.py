@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,22 +26,19 @@ from up_runner.instance_host import InstanceHost
 from up_runner.instances import Instances
 from up_runner.policy import ASLEEP
 from up_runner.pool.directory import PoolDirectory
-from up_runner.pool.fleet_actions import FleetActions
+from up_runner.pool.fleet_actions import drain, kick, report
 from up_runner.pool.hosted import UNAVAILABLE, HostedInstances, TakenError
-from up_runner.pool.messages import (
-    ELSEWHERE,
-    NO_ANSWER,
-    decode_request,
-    decode_response,
-    encode_request,
-    encode_response,
-    failed,
-)
 from up_runner.pool.orphans import Orphans
 from up_runner.pool.placement import HEARTBEAT_S, RunnerInfo, ranking
 from up_runner.pool.state_files import Store
-from up_runner.request import MalformedRequest, Request
-from up_runner.response import Response
+from up_runner.request import MalformedRequest, Request, decode_request, encode_request
+from up_runner.response import (
+    NO_ANSWER,
+    Response,
+    decode_response,
+    encode_response,
+    failed,
+)
 
 STORE = "up-state"
 RENEWALS = 5
@@ -51,7 +49,7 @@ ANSWER_S = 2.0
 """For the answer of another runner, beyond the time limit of a start."""
 ID = ".pool-id"
 CLUSTER, DRAINING, INSTANCE_LIMIT = "cluster", "draining", "instance_limit"
-QUOTA = "quota"
+QUOTA, ELSEWHERE = "quota", "elsewhere"
 _log = UpLogger.get_logger("runner.pool")
 
 
@@ -88,11 +86,16 @@ class Pool:
         self.hosted = HostedInstances(
             reactor, config, self._member, store, instances, host, self._counts
         )
-        self._orphans = Orphans(self._directory, self.hosted, self._counts, self._start_orphan)
-        self._fleet = FleetActions(instances, self.info, self._beat, self._shares)
+        take = partial(self._start_here, is_orphan=True)
+        self._orphans = Orphans(self._directory, self.hosted, self._counts, take)
         self._member.actions.update(
-            start=self._on_start, request=self._on_request, **self._fleet.actions
+            start=partial(self._on_peer, self._start_here),
+            request=partial(self._on_peer, self._request_here),
+            report=self._on_report,
+            drain=self._on_drain,
+            kick=partial(kick, instances),
         )
+        self._is_draining = False
         self._starting: set[str] = set()
         """Aircraft without a lease yet, which count for the quota."""
         self._is_stopped = False
@@ -110,12 +113,12 @@ class Pool:
             from up_cluster.s3_store import S3Store, S3Threads
         except ImportError:
             reason = "s3_bucket needs the Python package boto3: pip install 'raspilot[s3]'"
-            raise ClusterError("no_boto3", reason) from None
+            raise ClusterError(reason, "no_boto3") from None
         path = folder / pool.s3_credentials
         text = read_secret(path) if pool.s3_credentials else ""
         key, _, secret = text.partition(":")
         if text and not (key and secret):
-            raise ClusterError("cluster_credentials", f"{path} must be KEY:SECRET")
+            raise ClusterError(f"{path} must be KEY:SECRET", "cluster_credentials")
         try:
             store = S3Store(
                 S3Threads(self._reactor),
@@ -126,7 +129,7 @@ class Pool:
                 secret=secret,
             )
         except RefusedError as error:
-            raise ClusterError("s3_refused", str(error)) from None
+            raise ClusterError(str(error), "s3_refused") from None
         makers.append(lambda _: store.create(pool.tenant))
         return store
 
@@ -170,15 +173,14 @@ class Pool:
         return response
 
     def info(self) -> RunnerInfo:
-        """Return what the heartbeat contains."""
-        is_able = self._directory.is_current and not (self._fleet.is_draining or self._is_stopped)
+        is_able = self._directory.is_current and not (self._is_draining or self._is_stopped)
         free = self._instances.free if is_able else 0
         labels = frozenset(self._config.pool.labels)
         return RunnerInfo(self.id, self._config.pool.address, free, labels)
 
     def unready_code(self) -> str:
         """Return why the pool starts nothing by this runner; empty: it does."""
-        if self._fleet.is_draining:
+        if self._is_draining:
             return DRAINING
         return "" if self._member.is_ready and self._directory.is_current else CLUSTER
 
@@ -277,7 +279,7 @@ class Pool:
         async with self.hosted.lock(name):
             if name in self.hosted:
                 return self._named(await self._instances.spawn(request))
-            if self._fleet.is_draining or self._is_stopped:
+            if self._is_draining or self._is_stopped:
                 return failed(name, DRAINING, "this runner drains")
             if not is_orphan and self._is_over_quota(name):
                 self._counts[QUOTA] += 1
@@ -313,9 +315,6 @@ class Pool:
                 self.hosted.end(hosted, response.error.code)
             return response
 
-    async def _start_orphan(self, request: Request) -> Response:
-        return await self._start_here(request, is_orphan=True)
-
     def _named(self, response: Response) -> Response:
         return replace(response, host=self._config.pool.address)
 
@@ -339,13 +338,17 @@ class Pool:
         self._directory.follow()
         run(self.hosted.save_old_flights(), "the flights of earlier instances")
 
-    async def _on_start(self, message: dict[str, Any]) -> dict[str, Any]:
-        return await self._on_peer(message, self._start_here)
+    def _on_report(self, message: dict[str, Any]) -> dict[str, Any]:
+        found = report(self.info(), self._instances)
+        return {**found, "is_draining": self._is_draining, **self._shares()}
 
-    async def _on_request(self, message: dict[str, Any]) -> dict[str, Any]:
-        return await self._on_peer(message, self._request_here)
+    def _on_drain(self, message: dict[str, Any]) -> dict[str, Any]:
+        """Start nothing here again, and let the instances move."""
+        self._is_draining = True
+        self._beat()
+        return drain(self._instances)
 
-    async def _on_peer(self, message: dict[str, Any], carry_out: Any) -> dict[str, Any]:
+    async def _on_peer(self, carry_out: Any, message: dict[str, Any]) -> dict[str, Any]:
         try:
             request = decode_request(message)
         except MalformedRequest:

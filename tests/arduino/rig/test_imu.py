@@ -105,44 +105,47 @@ def test_an_imu_that_is_not_there_does_not_answer(case):
     assert set(bursts(rig)) == {(OK, 0)}
 
 
-@pytest.mark.parametrize("byte", range(2 + TRANSFER_BYTES - 1))
-def test_the_data_line_held_at_any_byte_never_hangs_the_bench(case, byte):
-    rig = case(3)
+EACH_BYTE = pytest.mark.parametrize("byte", range(2 + TRANSFER_BYTES - 1))
+
+
+def failing_at(rig, byte, fault):
+    """Run the sampling program; from a byte of its burst on the sensor fails."""
     rig.run_us(40_000)
-    assert {status for status, _ in bursts(rig)} == {OK}
     first = byte < 2
-    rig.imu.fail_at_byte(byte if first else byte - 2, Fault.SDA_LOW, after_transfers=not first)
+    rig.imu.fail_at_byte(byte if first else byte - 2, fault, after_transfers=not first)
+    return rig
+
+
+def assert_works(rig):
+    rig.imu.mend()
+    rig.run_us(5_000)
+    assert {status for status, _ in bursts(rig)} == {OK}
+
+
+@EACH_BYTE
+def test_the_data_line_held_at_any_byte_never_hangs_the_bench(case, byte):
+    rig = failing_at(case(3), byte, Fault.SDA_LOW)
     rig.run_us(5_000)
     later = bursts(rig)
     # A start needs a free bus: TWINT is never set, whatever the program tries.
     assert len(later) > 3
     assert {status for status, _ in later} == {TIMEOUT}
-    rig.imu.mend()
-    rig.run_us(5_000)
-    assert {status for status, _ in bursts(rig)} == {OK}
+    assert_works(rig)
 
 
-@pytest.mark.parametrize("byte", range(2 + TRANSFER_BYTES - 1))
+@EACH_BYTE
 def test_the_clock_held_at_any_byte_stops_that_byte(case, byte):
-    rig = case(3)
-    rig.run_us(40_000)
-    first = byte < 2
-    rig.imu.fail_at_byte(byte if first else byte - 2, Fault.SCL_LOW, after_transfers=not first)
+    rig = failing_at(case(3), byte, Fault.SCL_LOW)
     later = bursts(rig)
     assert OK in {status for status, _ in later[:2]} or byte < 17
     assert later[-1][0] == TIMEOUT
     assert rig.imu.fault is Fault.SCL_LOW
-    rig.imu.mend()
-    rig.run_us(5_000)
-    assert {status for status, _ in bursts(rig)} == {OK}
+    assert_works(rig)
 
 
-@pytest.mark.parametrize("byte", range(2 + TRANSFER_BYTES - 1))
+@EACH_BYTE
 def test_gone_at_any_byte_is_no_answer(case, byte):
-    rig = case(3)
-    rig.run_us(40_000)
-    first = byte < 2
-    rig.imu.fail_at_byte(byte if first else byte - 2, Fault.NO_ANSWER, after_transfers=not first)
+    rig = failing_at(case(3), byte, Fault.NO_ANSWER)
     seen = bursts(rig)
     assert seen[-1] == (0x20, 0xAA)
     # An address or register without a device is not acknowledged and reads as ones.
@@ -151,9 +154,7 @@ def test_gone_at_any_byte_is_no_answer(case, byte):
     assert changed[0] in (expected, 0x20)
     if 2 < byte <= 12:
         assert changed == (OK, 0xFF)
-    rig.imu.mend()
-    rig.run_us(5_000)
-    assert {status for status, _ in bursts(rig)} == {OK}
+    assert_works(rig)
 
 
 def test_a_sensor_that_hangs_in_a_byte_is_freed_by_clocks(case):

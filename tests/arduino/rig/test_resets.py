@@ -177,12 +177,16 @@ def test_a_write_of_the_eeprom_takes_its_time(case):
     assert rig.eeprom.writes == 1
 
 
-@pytest.mark.parametrize("cut_us", [0, 500, 1700, 2500, 3300])
-def test_power_that_fails_in_a_write_spoils_one_byte(case, cut_us):
-    rig = case(6, eeprom=bytes(16))
+def run_to_the_write(rig):
     rig.run_us(START_UP_US)
     while not rig.eeprom.is_writing:
         rig.run_us(10)
+
+
+@pytest.mark.parametrize("cut_us", [0, 500, 1700, 2500, 3300])
+def test_power_that_fails_in_a_write_spoils_one_byte(case, cut_us):
+    rig = case(6, eeprom=bytes(16))
+    run_to_the_write(rig)
     rig.run_us(cut_us)
     assert rig.eeprom.is_writing
     rig.power_on()
@@ -196,9 +200,7 @@ def test_an_erased_cell_may_be_half_written(case):
     values = set()
     for seed in range(1, 12):
         rig = case(6, eeprom=bytes(16), seed=seed)
-        rig.run_us(START_UP_US)
-        while not rig.eeprom.is_writing:
-            rig.run_us(10)
+        run_to_the_write(rig)
         rig.run_us(2500)
         rig.power_on()
         values.add(rig.eeprom.read(10, 1)[0])
@@ -208,9 +210,7 @@ def test_an_erased_cell_may_be_half_written(case):
 
 def test_a_reset_lets_a_write_end(case):
     rig = case(6, eeprom=bytes(16))
-    rig.run_us(START_UP_US)
-    while not rig.eeprom.is_writing:
-        rig.run_us(10)
+    run_to_the_write(rig)
     rig.press_reset()
     rig.run_us(5_000)
     assert rig.eeprom.read(10, 1) == b"\x5a"

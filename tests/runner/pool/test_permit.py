@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.support.reactor import reactor, run_in_reactor
+from tests.support.reactor import reactor
 from up_cluster.lease import Lease, LeaseState
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import ConfigurationRefused
@@ -13,15 +13,11 @@ from up_runner.request import Request
 from up_runner.runner import Runner
 
 
-def test_an_instance_without_a_lease_is_refused(short_path):
-    run_in_reactor(refused, short_path)
-
-
-async def refused(folder):
+async def test_an_instance_without_a_lease_is_refused(short_path):
     pool = PoolConfig(servers="127.0.0.1:1", address="here")
-    config = RunnerConfig(pool=pool, run_folder=str(folder))
-    runner = Runner(reactor, config, folder)
-    pool = Pool(reactor, config, folder, runner.instances, runner.instance_host)
+    config = RunnerConfig(pool=pool, run_folder=str(short_path))
+    runner = Runner(reactor, config, short_path)
+    pool = Pool(reactor, config, short_path, runner.instances, runner.instance_host)
     response = await runner.instances.spawn(Request("glider-1"))
     assert (response.pid, response.error.code) == (None, "lease_lost")
     runner.instances.close()
@@ -31,7 +27,7 @@ async def refused(folder):
     lease = Lease("instance.default.glider-1", {}, 5, 5, until_s, lambda _: None)
     pool.hosted.add(Request("glider-1"), lease)
     permit = runner.instance_host.permit
-    assert permit("glider-1")["UP_DEADLINE_FILE"] == str(folder / "glider-1" / "deadline")
+    assert permit("glider-1")["UP_DEADLINE_FILE"] == str(short_path / "glider-1" / "deadline")
     for attribute, value in (
         ("proven_until_s", reactor.seconds() + MARGIN_S),
         ("state", LeaseState.UNPROVEN),

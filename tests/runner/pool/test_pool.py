@@ -21,9 +21,8 @@ from tests.support.waiting import until
 from up.system.deadline_watch import read_deadline
 from up_cluster.key_value import KeyValueBucket
 from up_cluster.membership import LEASES, ask
-from up_runner.pool.messages import encode_request
 from up_runner.pool.state_files import FLIGHTS
-from up_runner.request import Request
+from up_runner.request import Request, encode_request
 
 SEED = 18
 

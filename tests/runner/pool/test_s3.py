@@ -11,7 +11,7 @@ from tests.cluster.fleet.up_fleet import UpFleet
 from tests.runner.pool.runner_pool import RunnerPool
 from tests.runner.pool.test_state_files import move
 from tests.support.nats_servers import NatsServers
-from tests.support.reactor import reactor, run_in_reactor
+from tests.support.reactor import reactor
 from tests.support.s3_server import BUCKET, KEY, SECRET, S3Server
 from tests.support.waiting import until
 from up_cluster import s3_store
@@ -32,15 +32,11 @@ def store_at(endpoint, bucket=BUCKET, secret=SECRET):
     return S3Store(deferToThread, bucket, **more)
 
 
-def test_files_move_from_host_to_host(s3, tmp_path):
-    run_in_reactor(move, store_at(s3.endpoint), tmp_path)
+async def test_files_move_from_host_to_host(s3, tmp_path):
+    await move(store_at(s3.endpoint), tmp_path)
 
 
-def test_only_the_expected_revision_is_replaced(s3):
-    run_in_reactor(replace, s3)
-
-
-async def replace(s3):
+async def test_only_the_expected_revision_is_replaced(s3):
     store, name = store_at(s3.endpoint), "t/replaced/state"
     await store.create("t")
     with pytest.raises(WrongRevisionError):
@@ -60,11 +56,7 @@ async def replace(s3):
         await store.get_bytes(await store.info(name))
 
 
-def test_a_refusal_and_no_answer(s3):
-    run_in_reactor(refuse, s3)
-
-
-async def refuse(s3):
+async def test_a_refusal_and_no_answer(s3):
     with pytest.raises(RefusedError) as refused:
         await store_at(s3.endpoint, secret="wrong").put_bytes("t/x", b"")
     assert refused.value.code == "SignatureDoesNotMatch"
@@ -76,17 +68,14 @@ async def refuse(s3):
         await store_at("http://127.0.0.1:1").info("t/x")
 
 
-def test_a_service_that_hangs_gives_no_answer(s3, monkeypatch, tmp_path):
+async def test_a_service_that_hangs_gives_no_answer(s3, monkeypatch, tmp_path):
     monkeypatch.setattr(s3_store, "READ_LIMIT_S", 0.2)
-    (tmp_path / "flight").write_bytes(b"flight")
+    store, path = store_at(s3.endpoint), tmp_path / "flight"
+    path.write_bytes(b"flight")
     with s3.paused():
-        run_in_reactor(hang, store_at(s3.endpoint), tmp_path / "flight")
-
-
-async def hang(store, path):
-    for request in (store.info("t/x"), store.put_bytes("t/x", b""), store.put_file("t/x", path)):
-        with pytest.raises(UnavailableError):
-            await request
+        for request in store.info("t/x"), store.put_bytes("t/x", b""), store.put_file("t/x", path):
+            with pytest.raises(UnavailableError):
+                await request
 
 
 class Ignorant(BaseHTTPRequestHandler):
@@ -104,24 +93,20 @@ class Ignorant(BaseHTTPRequestHandler):
 
 
 @pytest.mark.parametrize("known", ["", "If-Match", "If-None-Match"])
-def test_a_service_that_ignores_conditions_is_refused(known):
+async def test_a_service_that_ignores_conditions_is_refused(known):
     with ThreadingHTTPServer(("127.0.0.1", 0), Ignorant) as server:
         server.known = known
         threading.Thread(target=server.serve_forever).start()
         store = store_at(f"http://127.0.0.1:{server.server_port}")
         try:
             with pytest.raises(RefusedError) as refused:
-                run_in_reactor(store.create, "t")
+                await store.create("t")
         finally:
             server.shutdown()
     assert refused.value.code == UNCONDITIONAL
 
 
-def test_threads_that_wait_for_s3_leave_those_of_the_reactor_free():
-    run_in_reactor(wait_in_all)
-
-
-async def wait_in_all():
+async def test_threads_that_wait_for_s3_leave_those_of_the_reactor_free():
     threads, end = S3Threads(reactor), threading.Event()
     waiting = [threads(end.wait) for _ in range(2 * MAX_THREADS)]
     assert await deferToThread(lambda: "free") == "free"

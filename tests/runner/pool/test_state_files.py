@@ -8,7 +8,6 @@ from twisted.logger import capturedLogs
 
 from tests.cluster.connected import connected
 from tests.support.nats_servers import NatsServers
-from tests.support.reactor import run_in_reactor
 from up_cluster.errors import UnavailableError, WrongRevisionError
 from up_cluster.object_store import ObjectStore
 from up_runner.pool.state_files import FLIGHTS, StateFiles
@@ -72,18 +71,14 @@ class SilentStore:
         return answer
 
 
-def test_files_move_from_host_to_host(tmp_path):
+async def test_files_move_from_host_to_host(tmp_path):
     (tmp_path / "nats").mkdir()
     with NatsServers(tmp_path / "nats", 1) as server:
-        run_in_reactor(move_at_nats, server, tmp_path)
-
-
-async def move_at_nats(server, folder):
-    client = await connected(server)
-    store = ObjectStore(client, "up-state")
-    await store.create(1)
-    await move(store, folder)
-    await client.stop()
+        client = await connected(server)
+        store = ObjectStore(client, "up-state")
+        await store.create(1)
+        await move(store, tmp_path)
+        await client.stop()
 
 
 async def move(store, folder):

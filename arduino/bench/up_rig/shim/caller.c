@@ -35,7 +35,7 @@ void rig_clear_measures(rig_t *rig) {
     memcpy(rig->meter.resets, resets, sizeof resets);
     rig->meter.stack_lowest = (uint16_t)rig->avr->ramend;
     if (!rig->avr->sreg[S_I] && rig->off_since != NEVER) rig->off_since = rig->avr->cycle;
-    for (int i = 0; i < 16; i++) rig->nest[i].entry = rig->avr->cycle;
+    rig->entered = rig->avr->cycle;
 }
 
 void rig_reset(rig_t *rig, uint8_t cause) {

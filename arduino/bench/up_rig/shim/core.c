@@ -49,6 +49,11 @@ void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function) {
     rig->avr->io[AVR_DATA_TO_IO(address)].w.param = rig;
 }
 
+uint8_t read_register(avr_t *avr, avr_io_addr_t address, void *param) {
+    run_events(param, read_time(param));
+    return avr->data[address];
+}
+
 void note_crash(rig_t *rig, const char *code, const char *format, unsigned value) {
     if (rig->crash_code) return;
     snprintf(rig->crash_text, sizeof rig->crash_text, format, value);
@@ -126,8 +131,8 @@ static void reset(rig_t *rig) {
     timers_reset(rig, rig->reset_until);
     twi_reset(rig);
     adc_reset(rig);
-    uart_reset(rig, avr->cycle);
-    eeprom_reset(rig, avr->cycle);
+    uart_reset(rig);
+    eeprom_reset(rig);
     ports_reset(rig, avr->cycle);
     watchdog_reset(rig, rig->reset_until, cause);
     interrupts_refresh(rig);

@@ -74,8 +74,7 @@ static uint8_t on_read(avr_t *avr, avr_io_addr_t address, void *param) {
 }
 
 /* A reset does not stop a write that has begun (8.4.2). */
-void eeprom_reset(rig_t *rig, cycle_t now) {
-    (void)now;
+void eeprom_reset(rig_t *rig) {
     rig->eeprom.master_until = 0;
     if (rig->eeprom.done != NEVER) rig->avr->data[R_EECR] = EEPE;
 }

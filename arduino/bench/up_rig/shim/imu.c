@@ -118,9 +118,8 @@ bool imu_write(rig_t *rig, uint8_t byte, cycle_t now) {
     return true;
 }
 
-uint8_t imu_read(rig_t *rig, bool is_last, cycle_t now) {
+uint8_t imu_read(rig_t *rig, cycle_t now) {
     imu_t *imu = &rig->imu;
-    (void)is_last;
     count_byte(rig, now);
     if (!is_there(rig, now)) return 0xFF;
     uint8_t at = imu->pointer & 127;
@@ -142,7 +141,6 @@ uint8_t rig_imu_register(const rig_t *rig, uint8_t at) { return rig->imu.registe
 void rig_imu_identity(rig_t *rig, uint8_t identity) { rig->imu.identity = identity; }
 uint64_t rig_imu_samples(const rig_t *rig) { return rig->imu.samples; }
 uint64_t rig_imu_transfers(const rig_t *rig) { return rig->imu.transfers; }
-uint64_t rig_twi_bytes(const rig_t *rig) { return rig->twi.bytes; }
 
 void rig_imu_plug(rig_t *rig, bool is_present) {
     if (is_present && !rig->imu.is_present) imu_power_on(rig, rig->avr->cycle);

@@ -46,7 +46,7 @@ void set_flag(rig_t *rig, uint16_t address, uint8_t bits) {
     interrupts_refresh(rig);
 }
 
-bool interrupt_enter(rig_t *rig) {
+void interrupt_enter(rig_t *rig) {
     avr_t *avr = rig->avr;
     unsigned vector = (unsigned)__builtin_ctz(rig->pending);
     const source_t *source = &SOURCES[vector];
@@ -54,7 +54,7 @@ bool interrupt_enter(rig_t *rig) {
     if (stack < 0x102 || stack > avr->ramend) {
         note_crash(rig, "wild_stack",
                    "the stack pointer is at 0x%04x when an interrupt comes", stack);
-        return false;
+        return;
     }
     avr->data[stack] = (uint8_t)(avr->pc >> 1);
     avr->data[stack - 1] = (uint8_t)(avr->pc >> 9);
@@ -69,54 +69,37 @@ bool interrupt_enter(rig_t *rig) {
     if (vector == 6 && avr->data[R_WDTCSR] & 8) avr->data[R_WDTCSR] &= (uint8_t)~0x40;
     rig->off_since = avr->cycle;
     rig->off_pc = (uint16_t)(vector * 4);
-    if (rig->depth < 16) {
-        rig->nest[rig->depth].vector = (uint8_t)vector;
-        rig->nest[rig->depth].entry = avr->cycle;
-    }
-    rig->depth++;
+    if (!rig->depth++) rig->entered = avr->cycle;
     rig->meter.counts[vector]++;
     avr->cycle += avr->state == cpu_Sleeping ? 8 : 4;
     avr->state = cpu_Running;
     avr->pc = vector * 4;
     interrupts_refresh(rig);
-    return true;
 }
 
 /* A RETI begins. */
 void interrupt_leave(rig_t *rig) {
-    if (!rig->depth) return;
-    rig->depth--;
-    if (rig->depth >= 16) return;
-    uint8_t vector = rig->nest[rig->depth].vector;
-    uint64_t taken = rig->avr->cycle + 4 - rig->nest[rig->depth].entry;
-    if (taken > rig->meter.longest[vector]) rig->meter.longest[vector] = (uint32_t)taken;
-    if (!rig->depth) rig->meter.interrupt_cycles += taken;
-}
-
-static rig_t *of(void *param) { return param; }
-
-static uint8_t on_read(avr_t *avr, avr_io_addr_t address, void *param) {
-    run_events(of(param), read_time(of(param)));
-    return avr->data[address];
+    if (!rig->depth || --rig->depth) return;
+    rig->meter.interrupt_cycles += rig->avr->cycle + 4 - rig->entered;
 }
 
 /* Flags are cleared by writing ones; SBI clears its own alone. */
 static void on_flags(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
-    rig_t *rig = of(param);
+    rig_t *rig = param;
     run_events(rig, write_time(rig));
     avr->data[address] &= (uint8_t)~bits_written(rig, value);
     interrupts_refresh(rig);
 }
 
 static void on_masks(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
-    run_events(of(param), write_time(of(param)));
+    run_events(param, write_time(param));
     avr->data[address] = value;
-    interrupts_refresh(of(param));
+    interrupts_refresh(param);
 }
 
 static void on_external(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
     if (value & 3)
-        note_crash(of(param), "not_modelled",
+        note_crash(param, "not_modelled",
                    "INT0 and INT1 are not modelled (EIMSK = 0x%02x)", value);
     avr->data[address] = value;
 }
@@ -125,7 +108,7 @@ void interrupts_hook(rig_t *rig) {
     static const uint16_t FLAGS[] = {R_TIFR0, R_TIFR1, R_TIFR2, R_PCIFR};
     static const uint16_t MASKS[] = {R_TIMSK0, R_TIMSK1, R_TIMSK2, R_PCICR};
     for (unsigned i = 0; i < 4; i++) {
-        hook_read(rig, FLAGS[i], on_read);
+        hook_read(rig, FLAGS[i], read_register);
         hook_write(rig, FLAGS[i], on_flags);
         hook_write(rig, MASKS[i], on_masks);
     }

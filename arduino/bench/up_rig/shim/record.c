@@ -8,7 +8,6 @@ void record_add(record_t *record, const void *item, size_t size) {
     if (record->count == record->room) {
         record->room = record->room ? record->room * 2 : 256;
         record->items = realloc(record->items, record->room * size);
-        record->size = size;
     }
     memcpy((char *)record->items + record->count++ * size, item, size);
 }

@@ -25,14 +25,14 @@ enum {
     R_PCIFR = 0x3B, R_EIFR, R_EIMSK,
     R_EECR = 0x3F, R_EEDR, R_EEARL, R_EEARH, R_GTCCR,
     R_TCCR0A = 0x44, R_TCCR0B, R_TCNT0, R_OCR0A, R_OCR0B,
-    R_SPCR = 0x4C, R_MCUSR = 0x54, R_MCUCR, R_SPMCSR = 0x57,
-    R_WDTCSR = 0x60, R_CLKPR, R_PRR = 0x64,
-    R_PCICR = 0x68, R_EICRA, R_PCMSK0 = 0x6B, R_PCMSK1, R_PCMSK2, R_TIMSK0, R_TIMSK1, R_TIMSK2,
+    R_MCUSR = 0x54, R_MCUCR, R_SPMCSR = 0x57,
+    R_WDTCSR = 0x60,
+    R_PCICR = 0x68, R_PCMSK0 = 0x6B, R_PCMSK1, R_PCMSK2, R_TIMSK0, R_TIMSK1, R_TIMSK2,
     R_ADCL = 0x78, R_ADCH, R_ADCSRA, R_ADCSRB, R_ADMUX,
-    R_TCCR1A = 0x80, R_TCCR1B, R_TCCR1C, R_TCNT1L = 0x84, R_TCNT1H, R_ICR1L, R_ICR1H,
-    R_OCR1AL, R_OCR1AH, R_OCR1BL, R_OCR1BH,
-    R_TCCR2A = 0xB0, R_TCCR2B, R_TCNT2, R_OCR2A, R_OCR2B, R_ASSR = 0xB6,
-    R_TWBR = 0xB8, R_TWSR, R_TWAR, R_TWDR, R_TWCR, R_TWAMR,
+    R_TCCR1A = 0x80, R_TCCR1B, R_TCCR1C, R_TCNT1L = 0x84, R_TCNT1H,
+    R_OCR1AL = 0x88, R_OCR1AH, R_OCR1BL, R_OCR1BH,
+    R_TCCR2A = 0xB0, R_TCCR2B, R_TCNT2, R_OCR2A, R_OCR2B,
+    R_TWBR = 0xB8, R_TWSR, R_TWAR, R_TWDR, R_TWCR,
     R_UCSR0A = 0xC0, R_UCSR0B, R_UCSR0C, R_UBRR0L = 0xC4, R_UBRR0H, R_UDR0,
 };
 
@@ -45,7 +45,7 @@ typedef struct rig rig_t;
 typedef struct { cycle_t cycle; uint8_t pin, level; } edge_t;
 typedef struct { cycle_t cycle; uint8_t value; } sent_t;
 typedef struct { cycle_t rise, fall; } pulse_t; /* fall is 0 before the first has ended */
-typedef struct { void *items; size_t count, room, size; } record_t;
+typedef struct { void *items; size_t count, room; } record_t;
 
 void record_add(record_t *record, const void *item, size_t size);
 
@@ -88,7 +88,7 @@ typedef struct {
     struct { uint8_t value, flags; double start; } *line;
     size_t line_first, line_count, line_room;
     cycle_t due;                  /* arrival of the line's first byte */
-    uint64_t overruns, framing_errors, received;
+    uint64_t overruns;
 } uart_t;
 
 enum { IMU_OK, IMU_NACK, IMU_SDA_LOW, IMU_SCL_LOW, IMU_RELEASES_AFTER_CLOCKS };
@@ -120,16 +120,14 @@ typedef struct {
     cycle_t due;
     uint8_t byte;
     bool is_waiting;          /* for a bus that is held */
-    bool start_follows;
     cycle_t free_at;
-    uint64_t bytes;
 } twi_t;
 
 typedef struct {
     uint8_t cells[1024];
     cycle_t master_until, done;
     uint16_t address;
-    uint8_t value, mode, old;
+    uint8_t value, mode;
     uint64_t writes;
 } eeprom_t;
 
@@ -145,7 +143,6 @@ typedef struct {
 typedef struct {
     uint64_t interrupt_cycles;          /* from an interrupt's entry to its RETI */
     uint64_t counts[VECTORS];
-    uint32_t longest[VECTORS];          /* cycles of one run of the handler, entry included */
     uint32_t longest_off;               /* longest time with interrupts off */
     uint16_t longest_off_pc;
     uint64_t sleep_cycles;
@@ -186,7 +183,7 @@ struct rig {
     cycle_t reset_until;
     cycle_t start_up;        /* length of a reset, the fuses' SUT */
     uint8_t depth;           /* of nested interrupts */
-    struct { uint8_t vector; cycle_t entry; } nest[16];
+    cycle_t entered;         /* when the outermost of them began */
     cycle_t off_since;
     uint16_t off_pc;
     uint32_t break_pc;       /* where `on_break` writes, UINT32_MAX for nowhere */
@@ -206,6 +203,7 @@ void note_crash(rig_t *rig, const char *code, const char *format, unsigned value
 uint32_t next_random(rig_t *rig);
 void hook_read(rig_t *rig, uint16_t address, avr_io_read_t function);
 void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function);
+uint8_t read_register(avr_t *avr, avr_io_addr_t address, void *param); /* as it is by then */
 
 /* ---- quick.c ---- */
 bool quick_run(rig_t *rig, cycle_t end);
@@ -215,7 +213,7 @@ void quick_discard(rig_t *rig);
 void interrupts_hook(rig_t *rig);
 void interrupts_refresh(rig_t *rig);
 void set_flag(rig_t *rig, uint16_t address, uint8_t bits);
-bool interrupt_enter(rig_t *rig);
+void interrupt_enter(rig_t *rig);
 void interrupt_leave(rig_t *rig);
 
 /* ---- the parts ---- */
@@ -233,7 +231,7 @@ void timers_run(rig_t *rig, cycle_t now);
 uint8_t timers_read_count(rig_t *rig, uint16_t address, cycle_t when);
 
 void uart_hook(rig_t *rig);
-void uart_reset(rig_t *rig, cycle_t now);
+void uart_reset(rig_t *rig);
 cycle_t uart_due(const rig_t *rig);
 void uart_run(rig_t *rig, cycle_t now);
 
@@ -248,12 +246,12 @@ void imu_power_on(rig_t *rig, cycle_t now);
 void imu_start(rig_t *rig);
 bool imu_address(rig_t *rig, uint8_t byte, cycle_t now);
 bool imu_write(rig_t *rig, uint8_t byte, cycle_t now);
-uint8_t imu_read(rig_t *rig, bool is_last, cycle_t now);
+uint8_t imu_read(rig_t *rig, cycle_t now);
 bool imu_holds_sda(const rig_t *rig);
 bool imu_holds_scl(const rig_t *rig);
 
 void eeprom_hook(rig_t *rig);
-void eeprom_reset(rig_t *rig, cycle_t now);
+void eeprom_reset(rig_t *rig);
 void eeprom_run(rig_t *rig, cycle_t now);
 void eeprom_power_cut(rig_t *rig, cycle_t now);
 

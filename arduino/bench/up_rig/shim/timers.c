@@ -171,15 +171,13 @@ static uint8_t on_count_read(avr_t *avr, avr_io_addr_t address, void *param) {
 }
 
 static uint8_t on_temp_read(avr_t *avr, avr_io_addr_t address, void *param) {
-    rig_t *rig = param;
     (void)avr, (void)address;
-    return rig->temp;
+    return ((rig_t *)param)->temp;
 }
 
 static void on_temp_write(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
-    rig_t *rig = param;
     (void)avr, (void)address;
-    rig->temp = value;
+    ((rig_t *)param)->temp = value;
 }
 
 static void on_count_write(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
@@ -196,17 +194,16 @@ static void on_count_write(avr_t *avr, avr_io_addr_t address, uint8_t value, voi
     plan(rig, timer, now);
 }
 
+static int side_of(avr_io_addr_t address) {
+    return address == R_OCR0B || address == R_OCR1BL || address == R_OCR2B;
+}
+
 static uint8_t on_compare_read(avr_t *avr, avr_io_addr_t address, void *param) {
     rig_t *rig = param;
     (void)avr;
-    rig_timer_t *timer = timer_of(rig, address);
-    switch (address) {
-        case R_OCR1AL: return (uint8_t)timer->compare[0];
-        case R_OCR1AH: return (uint8_t)(timer->compare[0] >> 8);
-        case R_OCR1BL: return (uint8_t)timer->compare[1];
-        case R_OCR1BH: return (uint8_t)(timer->compare[1] >> 8);
-        default: return (uint8_t)timer->compare[address == R_OCR0B || address == R_OCR2B];
-    }
+    bool is_high = address == R_OCR1AH || address == R_OCR1BH;
+    uint16_t value = timer_of(rig, address)->compare[side_of(is_high ? address - 1 : address)];
+    return (uint8_t)(is_high ? value >> 8 : value);
 }
 
 static void on_compare_write(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
@@ -215,8 +212,7 @@ static void on_compare_write(avr_t *avr, avr_io_addr_t address, uint8_t value, v
     rig_timer_t *timer = timer_of(rig, address);
     cycle_t now = write_time(rig);
     run_events(rig, now);
-    int side = address == R_OCR0B || address == R_OCR1BL || address == R_OCR2B;
-    timer->compare[side] = timer->number == 1 ? (uint16_t)(rig->temp << 8 | value) : value;
+    timer->compare[side_of(address)] = timer->number == 1 ? (uint16_t)(rig->temp << 8 | value) : value;
     plan(rig, timer, now);
 }
 

@@ -46,25 +46,21 @@ static void lose(rig_t *rig) {
     finish(rig, LOST);
 }
 
+/* The bus is held: what is being done goes on when it is released. */
+static void wait_for_bus(rig_t *rig) {
+    rig->twi.is_waiting = true;
+    plan(rig, NEVER);
+}
+
 static void start(rig_t *rig, cycle_t now) {
-    twi_t *twi = &rig->twi;
-    twi->doing = DO_START;
-    if (is_held(rig)) {
-        twi->is_waiting = true;
-        plan(rig, NEVER);
-        return;
-    }
-    begin(rig, DO_START, (twi->free_at > now ? twi->free_at : now) + bit_cycles(rig));
+    cycle_t free_at = rig->twi.free_at;
+    begin(rig, DO_START, (free_at > now ? free_at : now) + bit_cycles(rig));
+    if (is_held(rig)) wait_for_bus(rig);
 }
 
 static void stop(rig_t *rig, cycle_t now) {
-    rig->twi.doing = DO_STOP;
-    if (is_held(rig)) {
-        rig->twi.is_waiting = true;
-        plan(rig, NEVER);
-        return;
-    }
     begin(rig, DO_STOP, now + bit_cycles(rig));
+    if (is_held(rig)) wait_for_bus(rig);
 }
 
 static void byte(rig_t *rig, cycle_t now) {
@@ -73,7 +69,7 @@ static void byte(rig_t *rig, cycle_t now) {
                                                                                   : DO_WRITE;
     twi->byte = rig->avr->data[R_TWDR];
     begin(rig, doing, now + 9 * bit_cycles(rig));
-    if (imu_holds_scl(rig)) plan(rig, NEVER), twi->is_waiting = true;
+    if (imu_holds_scl(rig)) wait_for_bus(rig);
 }
 
 /* The bus is released, or held: a waiting transfer resumes, a running one may stop. */
@@ -95,7 +91,7 @@ static void end_address(rig_t *rig) {
     twi_t *twi = &rig->twi;
     bool is_read = twi->byte & 1;
     bool is_acknowledged = imu_address(rig, twi->byte, twi->due);
-    if (imu_holds_scl(rig)) return (void)(twi->is_waiting = true, plan(rig, NEVER));
+    if (imu_holds_scl(rig)) return wait_for_bus(rig);
     if (is_one_lost(rig, twi->byte)) return lose(rig);
     if (imu_holds_sda(rig)) is_acknowledged = true;
     twi->state = is_read ? TWI_READING : TWI_WRITING;
@@ -105,7 +101,7 @@ static void end_address(rig_t *rig) {
 static void end_write(rig_t *rig) {
     twi_t *twi = &rig->twi;
     bool is_acknowledged = imu_write(rig, twi->byte, twi->due);
-    if (imu_holds_scl(rig)) return (void)(twi->is_waiting = true, plan(rig, NEVER));
+    if (imu_holds_scl(rig)) return wait_for_bus(rig);
     if (is_one_lost(rig, twi->byte)) return lose(rig);
     finish(rig, imu_holds_sda(rig) || is_acknowledged ? 0x28 : 0x30);
 }
@@ -113,8 +109,8 @@ static void end_write(rig_t *rig) {
 static void end_read(rig_t *rig) {
     twi_t *twi = &rig->twi;
     bool is_last = !(*control(rig) & TWEA);
-    uint8_t value = imu_read(rig, is_last, twi->due);
-    if (imu_holds_scl(rig)) return (void)(twi->is_waiting = true, plan(rig, NEVER));
+    uint8_t value = imu_read(rig, twi->due);
+    if (imu_holds_scl(rig)) return wait_for_bus(rig);
     if (imu_holds_sda(rig)) value = 0;
     rig->avr->data[R_TWDR] = value;
     if (imu_holds_sda(rig) && is_last) return lose(rig);
@@ -133,9 +129,9 @@ void twi_run(rig_t *rig, cycle_t now) {
             imu_start(rig);
             finish(rig, is_repeated ? REPEATED_START : START);
             break;
-        case DO_ADDRESS: twi->bytes++; end_address(rig); break;
-        case DO_WRITE: twi->bytes++; end_write(rig); break;
-        case DO_READ: twi->bytes++; end_read(rig); break;
+        case DO_ADDRESS: end_address(rig); break;
+        case DO_WRITE: end_write(rig); break;
+        case DO_READ: end_read(rig); break;
         case DO_STOP: {
             cycle_t when = twi->due;
             uint8_t *data = rig->avr->data;
@@ -189,11 +185,6 @@ static void on_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
     interrupts_refresh(rig);
 }
 
-static uint8_t on_read(avr_t *avr, avr_io_addr_t address, void *param) {
-    run_events(param, read_time(param));
-    return avr->data[address];
-}
-
 static void on_data(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
     rig_t *rig = param;
     run_events(rig, write_time(rig));
@@ -222,9 +213,9 @@ void twi_reset(rig_t *rig) {
 
 void twi_hook(rig_t *rig) {
     hook_write(rig, R_TWCR, on_control);
-    hook_read(rig, R_TWCR, on_read);
+    hook_read(rig, R_TWCR, read_register);
     hook_write(rig, R_TWDR, on_data);
-    hook_read(rig, R_TWDR, on_read);
+    hook_read(rig, R_TWDR, read_register);
     hook_write(rig, R_TWSR, on_status);
-    hook_read(rig, R_TWSR, on_read);
+    hook_read(rig, R_TWSR, read_register);
 }

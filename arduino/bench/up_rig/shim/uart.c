@@ -71,7 +71,6 @@ static void receive(rig_t *rig) {
     uart->line_count--;
     plan_line(rig);
     if (!(rig->avr->data[R_UCSR0B] & RXEN) || rig->reset_until) return;
-    uart->received++;
     uint8_t errors = flags & 1 ? FE : 0;
     /* Beyond this mismatch the tenth bit is not sampled where it is (table 20-3). */
     double mismatch = bit_cycles(rig) / uart->line_bit;
@@ -79,7 +78,6 @@ static void receive(rig_t *rig) {
         value ^= (uint8_t)next_random(rig);
         errors |= FE;
     }
-    if (errors & FE) uart->framing_errors++;
     if (uart->count == 3) {
         uart->overruns++;
         uart->errors[2] |= DOR;
@@ -156,11 +154,6 @@ static void on_data_write(avr_t *avr, avr_io_addr_t address, uint8_t value, void
     interrupts_refresh(rig);
 }
 
-static uint8_t on_status_read(avr_t *avr, avr_io_addr_t address, void *param) {
-    run_events(param, read_time(param));
-    return avr->data[address];
-}
-
 static void on_status_write(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
     rig_t *rig = param;
     run_events(rig, write_time(rig));
@@ -180,8 +173,7 @@ static void on_control_write(avr_t *avr, avr_io_addr_t address, uint8_t value, v
     interrupts_refresh(rig);
 }
 
-void uart_reset(rig_t *rig, cycle_t now) {
-    (void)now;
+void uart_reset(rig_t *rig) {
     uart_t *uart = &rig->uart;
     uart->count = 0;
     uart->is_waiting = uart->is_sending = false;
@@ -194,7 +186,7 @@ void uart_hook(rig_t *rig) {
     rig_uart_baud(rig, 115200);
     hook_read(rig, R_UDR0, on_data_read);
     hook_write(rig, R_UDR0, on_data_write);
-    hook_read(rig, R_UCSR0A, on_status_read);
+    hook_read(rig, R_UCSR0A, read_register);
     hook_write(rig, R_UCSR0A, on_status_write);
     hook_write(rig, R_UCSR0B, on_control_write);
 }

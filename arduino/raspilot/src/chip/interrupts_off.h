@@ -15,8 +15,6 @@ enum Note : uint8_t {
   /** The ring of stamps was full; edges are lost. */
   NOTE_LOST = 1,
   /** The next edge of this output is a rise. */
-  NOTE_RISES_AILERONS = 2,
-  NOTE_RISES_ELEVATOR = 3,
   NOTE_RISES_THROTTLE = 4,
   NOTE_RISES_RUDDER = 5
 };

@@ -2,6 +2,7 @@
 
 #include "../core/board.h"
 #include "../core/compiler.h"
+#include "../protocol/forwarder.h"
 #include "../protocol/frame.h"
 #include "interrupts_off.h"
 

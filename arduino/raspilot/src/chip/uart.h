@@ -3,10 +3,6 @@
 
 #include <stdint.h>
 
-#ifndef RASPILOT_BAUD
-#define RASPILOT_BAUD 115200UL
-#endif
-
 namespace raspilot {
 namespace uart {
 

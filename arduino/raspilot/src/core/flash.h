@@ -10,7 +10,5 @@
 #define PROGMEM
 #define pgm_read_byte(address) (*reinterpret_cast<const uint8_t*>(address))
 #define pgm_read_word(address) (*reinterpret_cast<const uint16_t*>(address))
-#define pgm_read_dword(address) (*reinterpret_cast<const uint32_t*>(address))
-#define pgm_read_ptr(address) (*reinterpret_cast<void* const*>(address))
 #define memcpy_P memcpy
 #endif

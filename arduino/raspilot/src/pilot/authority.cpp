@@ -184,7 +184,7 @@ OUT_OF_LINE Ticks Authority::throttle() const {
   return demand_us != 0 ? us_to_ticks(static_cast<int16_t>(demand_us)) : receiver_->pulse(THROTTLE);
 }
 
-Reason Authority::arm(uint32_t) {
+Reason Authority::arm() {
   const uint8_t against = vetoes();
   if (against & VETO_THROTTLE_NOT_LOW) return Reason::THROTTLE_NOT_LOW;
   if (against & VETO_RECEIVER_INVALID) return Reason::RECEIVER_INVALID;
@@ -194,7 +194,7 @@ Reason Authority::arm(uint32_t) {
   return Reason::NONE;
 }
 
-Reason Authority::disarm(uint32_t) {
+Reason Authority::disarm() {
   if (is_armed_ && profile_->has_motor && throttle_low_.units() < LOW_LONG_ENOUGH_UNITS) {
     return has_receiver() ? Reason::THROTTLE_NOT_LOW : Reason::RECEIVER_INVALID;
   }
@@ -202,7 +202,7 @@ Reason Authority::disarm(uint32_t) {
   return Reason::NONE;
 }
 
-Reason Authority::request_mode(char letter, uint32_t) {
+Reason Authority::request_mode(char letter) {
   const Mode mode = static_cast<Mode>(letter);
   if (mode != Mode::RATE && mode != Mode::FBW && mode != Mode::SETPOINT && mode != Mode::OUTPUT) {
     return Reason::OUT_OF_RANGE;
@@ -227,7 +227,7 @@ Reason Authority::authority_for(Mode mode) const {
   return Reason::NONE;
 }
 
-Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t) {
+Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us) {
   const Reason reason = authority_for(Mode::OUTPUT);
   if (reason != Reason::NONE) return reason;
   if (age_us > MAX_ORIENTATION_AGE_US) return Reason::TOO_OLD;
@@ -240,14 +240,14 @@ Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uin
   return Reason::NONE;
 }
 
-Reason Authority::accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
+Reason Authority::accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms) {
   const Reason reason = authority_for(Mode::SETPOINT);
   if (reason != Reason::NONE) return reason;
   follow(DEMAND, setpoint, lifetime_ms);
   return Reason::NONE;
 }
 
-Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
+Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms) {
   if (!profile_->may_pi_fly()) return Reason::NOT_ALLOWED;
   if (!is_failsafe_) return Reason::NOT_IN_FAILSAFE;
   if (!has_imu()) return Reason::IMU_INVALID;
@@ -264,7 +264,7 @@ OUT_OF_LINE void Authority::follow(Life life, const Setpoint& setpoint, uint16_t
   timeouts_[OUTPUT].end();
 }
 
-void Authority::accept_veto(bool is_vetoed, uint32_t) {
+void Authority::accept_veto(bool is_vetoed) {
   timeouts_[PI_VETO].start(is_vetoed ? VETO_TIMEOUT_UNITS : 0);
 }
 

@@ -18,6 +18,7 @@ struct AuthorityState {
   bool is_armed;
   uint8_t switch_position;
   char requested_mode;
+  /** Stays after more than 5 s of failsafe until the stick has been low. */
   bool is_throttle_latched;
   bool is_failsafe;
 };
@@ -61,8 +62,6 @@ class Authority {
   bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER_INVALID); }
   /** Receiver failsafe acts: circle (IMU valid) or preset surfaces. */
   bool is_failsafe() const { return is_failsafe_; }
-  /** Stays after more than 5 s of failsafe until the stick has been low. */
-  bool is_throttle_latched() const { return is_latched_; }
   uint8_t vetoes() const;
 
   /** The throttle pulse for the ESC by every rule, ticks; 1000 us while disarmed with a motor. */
@@ -71,24 +70,24 @@ class Authority {
   const Asked& asked() const { return asked_; }
 
   /** Refused by any veto: throttle, receiver and IMU have their own reasons. */
-  Reason arm(uint32_t now_us);
+  Reason arm();
   /** With a motor, refused unless the throttle stick was seen low for the last 2 s. */
-  Reason disarm(uint32_t now_us);
+  Reason disarm();
   /** `M`: only with the switch at AUTO; never ACRO. */
-  Reason request_mode(char letter, uint32_t now_us);
+  Reason request_mode(char letter);
   /**
    * `u`; `age_us` is that of the orientation that it was computed from. Holds for 250 ms. Values
    * are in range, here and in a Setpoint: the reader of the wire refuses others.
    */
-  Reason accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
-  Reason accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
+  Reason accept_outputs(const uint16_t* pulses_us, uint32_t age_us);
+  Reason accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms);
   /**
    * `R`: as a Setpoint, in receiver failsafe only and where the profile allows it. When the receiver
    * is back it goes on until the pilot leaves AUTO or moves a stick, or until it is not renewed.
    */
-  Reason accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
+  Reason accept_return(const Setpoint& setpoint, uint16_t lifetime_ms);
   /** `v`: holds for 1 s. */
-  void accept_veto(bool is_vetoed, uint32_t now_us);
+  void accept_veto(bool is_vetoed);
 
   AuthorityState state() const;
   /** After a watchdog reset only. */

@@ -12,7 +12,7 @@ extern "C" const CommandDefinition __stop_raspilot_commands[];
 
 }  // namespace
 
-bool CommandExecutor::find(char type, CommandDefinition& found) {
+bool find_command(char type, CommandDefinition& found) {
   for (const CommandDefinition* at = __start_raspilot_commands; at != __stop_raspilot_commands;
        ++at) {
     if (static_cast<char>(pgm_read_byte(&at->type)) != type) continue;
@@ -21,15 +21,6 @@ bool CommandExecutor::find(char type, CommandDefinition& found) {
     return found.size <= MAX_COMMAND;
   }
   return false;
-}
-
-uint8_t CommandExecutor::count(char type) {
-  uint8_t count = 0;
-  for (const CommandDefinition* at = __start_raspilot_commands; at != __stop_raspilot_commands;
-       ++at) {
-    count = static_cast<uint8_t>(count + (static_cast<char>(pgm_read_byte(&at->type)) == type));
-  }
-  return count;
 }
 
 }  // namespace raspilot

@@ -46,12 +46,7 @@ struct CommandDefinition {
 #define REGISTERED \
   __attribute__((section("raspilot_commands"), used, aligned(alignof(CommandDefinition))))
 
-class CommandExecutor {
- public:
-  /** Looks a type up; false unless it is registered with at most MAX_COMMAND bytes. */
-  static bool find(char type, CommandDefinition& found);
-  /** How many Commands are registered for this type: one, unless two files name the same. */
-  static uint8_t count(char type);
-};
+/** Looks a type up; false unless it is registered with at most MAX_COMMAND bytes. */
+bool find_command(char type, CommandDefinition& found);
 
 }  // namespace raspilot

@@ -69,7 +69,7 @@ void Link::on_frame(uint32_t now_us) {
   const uint8_t sequence = reader_.sequence();
   count_sequence(sequence);
   CommandDefinition command;
-  const bool is_known = CommandExecutor::find(type, command);
+  const bool is_known = find_command(type, command);
   if (!is_known || command.size != reader_.payload_size()) {
     on_dropped();
     refuse_seldom(type, sequence, is_known ? Reason::WRONG_SIZE : Reason::UNKNOWN_TYPE, now_us);
@@ -141,7 +141,7 @@ bool Link::send_answer(uint32_t now_us) {
 bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   CommandDefinition command;
   if (!has_room(MAX_COMMAND)) return false;
-  if (!CommandExecutor::find(static_cast<char>(pending.type), command)) return true;
+  if (!find_command(static_cast<char>(pending.type), command)) return true;
   const Request request = {reader_.payload(), pending.sequence, now_us};
   const Reason reason = command.handler(*autopilot_, request);
   if (reason != Reason::NONE) pending.what = static_cast<uint8_t>(reason);

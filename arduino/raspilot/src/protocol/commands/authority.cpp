@@ -5,17 +5,17 @@
 namespace raspilot {
 namespace {
 
-Reason on_arm(Autopilot& autopilot, const Request& request) {
-  return autopilot.authority.arm(request.now_us);
+Reason on_arm(Autopilot& autopilot, const Request&) {
+  return autopilot.authority.arm();
 }
 
-Reason on_disarm(Autopilot& autopilot, const Request& request) {
-  return autopilot.authority.disarm(request.now_us);
+Reason on_disarm(Autopilot& autopilot, const Request&) {
+  return autopilot.authority.disarm();
 }
 
 Reason on_veto(Autopilot& autopilot, const Request& request) {
   if (request.payload[0] > 1) return Reason::OUT_OF_RANGE;
-  autopilot.authority.accept_veto(request.payload[0] == 1, request.now_us);
+  autopilot.authority.accept_veto(request.payload[0] == 1);
   return Reason::NONE;
 }
 
@@ -24,7 +24,7 @@ Reason on_mode(Autopilot& autopilot, const Request& request) {
   if (letter != 'r' && letter != 'f' && letter != 's' && letter != 'u') {
     return Reason::OUT_OF_RANGE;
   }
-  return autopilot.authority.request_mode(letter, request.now_us);
+  return autopilot.authority.request_mode(letter);
 }
 
 Reason on_mode_asked(Autopilot& autopilot, const Request&) {

@@ -38,19 +38,19 @@ Reason on_output(Autopilot& autopilot, const Request& request) {
   OutputFields fields;
   if (!read(request, OUTPUT_FIELDS, &fields)) return Reason::OUT_OF_RANGE;
   const uint32_t age_us = autopilot.link.orientation_age_us(fields.sequence, request.now_us);
-  return autopilot.authority.accept_outputs(fields.pulses_us, age_us, request.now_us);
+  return autopilot.authority.accept_outputs(fields.pulses_us, age_us);
 }
 
 Reason on_setpoint(Autopilot& autopilot, const Request& request) {
   SetpointFields fields;
   if (!read(request, SETPOINT_FIELDS, &fields)) return Reason::OUT_OF_RANGE;
-  return autopilot.authority.accept_setpoint(fields.setpoint, fields.lifetime_ms, request.now_us);
+  return autopilot.authority.accept_setpoint(fields.setpoint, fields.lifetime_ms);
 }
 
 Reason on_return(Autopilot& autopilot, const Request& request) {
   SetpointFields fields;
   if (!read(request, SETPOINT_FIELDS, &fields)) return Reason::OUT_OF_RANGE;
-  return autopilot.authority.accept_return(fields.setpoint, fields.lifetime_ms, request.now_us);
+  return autopilot.authority.accept_return(fields.setpoint, fields.lifetime_ms);
 }
 
 Reason on_airspeed(Autopilot& autopilot, const Request& request) {
