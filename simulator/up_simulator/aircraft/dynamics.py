@@ -59,7 +59,7 @@ _READ = {
 
 
 class FlightDynamics:
-    """A flight in steps of 2 ms, launched in the air or thrown; satisfies ``FlightSource``.
+    """A flight in steps of 2 ms, launched in the air or thrown.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.

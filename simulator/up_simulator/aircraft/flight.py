@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from up_rig.imu import Motion
-
-if TYPE_CHECKING:
-    from up_simulator.aircraft.start import Start
 
 Servos = tuple[int, int, int, int]
 """Servo pulses, us: ailerons, elevator, throttle, rudder."""
@@ -93,28 +90,3 @@ class Dynamics(Protocol):
 
     def advance(self, duration_s: float) -> None:
         """Run all whole steps of the time requested so far."""
-
-
-class FlightSource(Dynamics, Protocol):
-    """A flight that can be repeated."""
-
-    @property
-    def servos(self) -> Servos:
-        """Return the present servo positions, us, which lag behind the commanded ones."""
-
-    @property
-    def is_landed(self) -> bool:
-        """Return whether it has touched down; it then slides and rests."""
-
-    def change_battery(self) -> None:
-        """Put a full battery in."""
-
-    def launch(self, start: Start) -> None:
-        """Put it back into the air."""
-
-
-class Clock(Protocol):
-    """A clock that only rises, such as a reactor's or a test's."""
-
-    def seconds(self) -> float:
-        """Return seconds since an arbitrary moment."""

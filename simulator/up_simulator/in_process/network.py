@@ -28,10 +28,6 @@ class Route:
         self._network = network
         self.pipe = pipe
 
-    @property
-    def is_perfect(self) -> bool:
-        return self.pipe is None
-
     def carry(self, size: int, call: Callable[..., object], *arguments: Any) -> None:
         if self.pipe is None:
             self._network.next_step.append((call, arguments))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from twisted.internet.defer import Deferred
 
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.harness.user_log import text_log
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
@@ -28,7 +28,7 @@ class InProcessPhone:
     def __init__(
         self,
         reactor: SimulatedReactor,
-        flight: FlightSource,
+        flight: FlightDynamics,
         *,
         orientation: OrientationBy = "tcp",
         seed: int = 1,

@@ -191,7 +191,7 @@ class TcpConnection:
         is_new = offset == self._expected
         if is_new:
             self._expected += len(data) + is_last
-        if self._route.is_perfect:
+        if self._route.pipe is None:
             self.peer.on_acknowledged(self._expected, sent_s)
         else:
             self._route.carry(HEADER, self.peer.on_acknowledged, self._expected, sent_s)
@@ -233,7 +233,7 @@ class TcpConnection:
         self._in_flight += len(data)
         self._unacknowledged.append(item)
         self._route.carry(HEADER + len(data), self.peer.on_segment, *item)
-        if self._retry is None and not self._route.is_perfect:
+        if self._retry is None and self._route.pipe is not None:
             self._schedule_retry()
 
     def _release(self) -> None:

@@ -30,8 +30,6 @@ class LinkSettings:
             raise ValueError(f"loss_percent is at most 100, not {self.loss_percent!r}")
 
 
-__all__ = ["LinkModel", "LinkSettings"]
-
 INITIAL_RETRY_S = 0.2
 """The least time after which TCP sends a lost packet again (Linux; RFC 6298 requires 1 s)."""
 MAX_RETRY_S = 3.0
@@ -45,7 +43,8 @@ class LinkModel:
     The same seed, settings and calls give the same times. Times are seconds of the caller's clock
     and must not go back. Order is kept, for datagrams as well, as on a cellular link.
 
-    ``settings`` may be replaced at any time: new ones hold for later packets.
+    ``settings`` may be replaced at any time: new ones hold for later packets. ``blackouts`` counts
+    the blackouts so far: packets in flight at the start of one are lost.
     """
 
     def __init__(self, settings: LinkSettings | None = None, seed: int = 1) -> None:
@@ -55,22 +54,8 @@ class LinkModel:
         self._newest_s = -math.inf
         self._resumed_s = -math.inf
         self._is_stalled = False
-        self._is_black = False
-        self._blackouts = 0
-
-    @property
-    def is_stalled(self) -> bool:
-        """Return whether all packets are held, to arrive in a burst later."""
-        return self._is_stalled
-
-    @property
-    def is_black(self) -> bool:
-        return self._is_black
-
-    @property
-    def blackouts(self) -> int:
-        """Return the number of blackouts so far: packets in flight at the start of one are lost."""
-        return self._blackouts
+        self.is_black = False
+        self.blackouts = 0
 
     def send(self, size: int, now_s: float, *, is_datagram: bool = False) -> float | None:
         """Return when a packet of ``size`` bytes arrives, or None: it never does.
@@ -86,7 +71,7 @@ class LinkModel:
         jitter_s = self._random.random() * settings.jitter_ms / 1000
         retries = self._retries()
         # A lost packet may still have filled the bottleneck; a blackout is before it.
-        if self._is_black or retries is None:
+        if self.is_black or retries is None:
             return None
         self._is_free_s = left_s
         if is_datagram and retries:
@@ -100,7 +85,7 @@ class LinkModel:
         """Return when a packet arrives that was due then: infinity while the link is stalled."""
         return math.inf if self._is_stalled else max(due_s, self._resumed_s)
 
-    def stall(self, now_s: float) -> None:
+    def stall(self) -> None:
         """Hold all packets from now on, those in flight included; nothing is lost."""
         self._is_stalled = True
 
@@ -112,12 +97,12 @@ class LinkModel:
 
     def black_out(self) -> None:
         """Lose all packets, those in flight included, without a notification."""
-        if not self._is_black:
-            self._is_black = True
-            self._blackouts += 1
+        if not self.is_black:
+            self.is_black = True
+            self.blackouts += 1
 
     def restore(self) -> None:
-        self._is_black = False
+        self.is_black = False
 
     def _retries(self) -> int | None:
         """Return how often a packet is lost before it arrives; None: always."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.in_process.config_folder import (
     CRSF_PORT,
     GOGGLES_PORT,
@@ -42,7 +42,7 @@ class InProcessParticipants(DaemonParticipants):
     def __init__(
         self,
         scenario: Scenario,
-        flight: FlightSource,
+        flight: FlightDynamics,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
     ) -> None:

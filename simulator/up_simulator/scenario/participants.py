@@ -243,7 +243,7 @@ class DaemonParticipants(Participants, ABC):
             if kind == "blackout":
                 model.black_out()
             elif kind == "stall":
-                model.stall(self.seconds())
+                model.stall()
             else:
                 model.restore()
                 model.resume(self.seconds())

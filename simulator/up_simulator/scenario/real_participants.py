@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.betaflight.packets import LINE as BETAFLIGHT_LINE
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.ports import choose_port_sets
@@ -52,7 +52,7 @@ class RealParticipants(DaemonParticipants):
     def __init__(
         self,
         scenario: Scenario,
-        flight: FlightSource,
+        flight: FlightDynamics,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
     ) -> None:
@@ -267,7 +267,7 @@ class RealParticipants(DaemonParticipants):
             self._reactor.link(before.ground, up=self.down, down=self.up)
             self.ground = InProcessGround(reactor, before.ground, seed=seed)
 
-    def _make_phone(self, flight: FlightSource) -> None:
+    def _make_phone(self, flight: FlightDynamics) -> None:
         part = self.scenario.phone
         if part is None:
             return
