@@ -226,7 +226,6 @@ def _check(path: Path, airframe: Airframe) -> None:
 
 
 def _position_of(path: Path, *keys: str) -> tuple[int, int]:
-    """Return line and column of a key in a valid file."""
     node = compose(path.read_text(encoding="utf-8-sig"), lambda *_problem: None)
     place = (1, 1)
     for name in keys:

@@ -107,13 +107,11 @@ class Derivation:
         return 1.0 - (1 + above + below) / ((1 + above) * (1 + below))
 
     def lift(self, alpha_deg: float) -> float:
-        """Return the lift coefficient without deflections."""
         share = self.attached(alpha_deg)
         plate = plate_normal(alpha_deg) * math.cos(math.radians(alpha_deg))
         return share * self._attached_lift(alpha_deg) + (1 - share) * plate
 
     def drag(self, alpha_deg: float) -> float:
-        """Return the drag coefficient without deflections and sideslip."""
         share = self.attached(alpha_deg)
         lift = self._attached_lift(alpha_deg)
         attached = (
@@ -144,7 +142,6 @@ class Derivation:
 
     @cached_property
     def parasite_drag(self) -> float:
-        """Return the drag coefficient at no lift: sections, fuselage, gaps."""
         geometry = self.geometry
         fins = 2 if geometry.tip_fins else 1
         drag = geometry.wing.profile_drag * self.area_m2

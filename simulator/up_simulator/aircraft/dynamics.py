@@ -188,7 +188,6 @@ class FlightDynamics:
         self._battery.charge()
 
     def set_charge(self, percent: float) -> None:
-        """Set the charge of the flight battery."""
         self._battery.charge(percent)
 
     def launch(self, start: Start) -> None:

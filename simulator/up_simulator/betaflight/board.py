@@ -146,7 +146,6 @@ class BetaflightBoard:
         self._start()
 
     def close(self) -> None:
-        """End the program, and forget its settings."""
         self._end()
         self._socket.close()
         shutil.rmtree(self._folder, ignore_errors=True)

@@ -74,7 +74,6 @@ class Child:
         return self._process.pid
 
     def poll(self) -> int | None:
-        """Return the exit status; None while it runs."""
         return self._process.poll()
 
     def lines(self) -> list[LogLine]:

@@ -126,7 +126,6 @@ class VirtualAircraft:
             options.sticks,
             options.controller,
             has_motor=airframe.has_motor,
-            is_armed=True,
             log=self._log,
             on_leave=on_leave,
             mode=mode,

@@ -116,7 +116,6 @@ class SimulatedHost:
         return listening
 
     def do(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Call into the program while it lives."""
         if self.running:
             call(*arguments)
 

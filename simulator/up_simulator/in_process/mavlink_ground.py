@@ -75,7 +75,6 @@ class MavlinkGround:
             self.is_silent = order == "silent"
 
     def write(self, packet: bytes) -> None:
-        """Send a packet; without a connection it is lost."""
         if self._connection is not None:
             self._connection.transport.write(bytes(packet))
 

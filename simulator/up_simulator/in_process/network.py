@@ -32,14 +32,13 @@ class Route:
         if self.pipe is None:
             self._network.next_step.append((call, arguments))
         else:
-            self.pipe.send((call, arguments), size, self._network.seconds())
+            self.pipe.send((call, arguments), size, self._network.clock.seconds())
 
 
 class Network:
     """Holds the listeners, and delivers every packet at its time."""
 
     def __init__(self, clock: Any) -> None:
-        self.seconds: Callable[[], float] = clock.seconds
         self.clock = clock
         self.next_step: deque[Delivery] = deque()
         self.tcp: dict[int, Any] = {}

@@ -34,15 +34,13 @@ class InProcessPhone:
         seed: int = 1,
         general_port: int = GENERAL_PORT,
         orientation_port: int = ORIENTATION_PORT,
-        cable: LinkSettings = CABLE,
     ) -> None:
         self.messages: list[str] = []
-        self.up = LinkModel(cable, seed)
-        self.down = LinkModel(cable, seed + 1)
+        self.up = LinkModel(CABLE, seed)
+        self.down = LinkModel(CABLE, seed + 1)
         self._reactor = reactor
-        self._ports = (general_port, orientation_port)
         self._place = RaspberryPi(ADDRESS, general_port, orientation_port)
-        for port in self._ports:
+        for port in (general_port, orientation_port):
             reactor.link(port, self.up, self.down)
         self._host = reactor.host("phone")
         self.handset = PythonHandset(

@@ -80,7 +80,6 @@ class TcpConnection:
         self.write(b"".join(iovec))
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send the queued data, then close."""
         if self.connected and not self.disconnecting:
             self.disconnecting = True
             self._want_to_write()
@@ -128,7 +127,6 @@ class TcpConnection:
     # Called by listeners, connectors, the network and the host.
 
     def attach(self) -> None:
-        """Begin to serve the program."""
         self._has_program = True
         self._host.opened[self] = None
 

@@ -141,7 +141,6 @@ class LinkStream:
         self._schedule()
 
     def _deliver_first(self) -> bool:
-        """Deliver the first packet; False: it has not arrived."""
         now_s = self._clock.seconds()
         first = self._packets[0]
         if self._has_vanished(first):

@@ -86,7 +86,6 @@ class ScenarioFlight:
 
     @property
     def state(self) -> FlightState:
-        """Return the true state of the aircraft."""
         return self._world.state
 
     @property

@@ -159,8 +159,6 @@ _Measure = Callable[[Expectation, Window], Verdict]
 
 
 def _known(measure: _Measure) -> _Measure:
-    """Restrict a measure to windows in which every value is known."""
-
     def measure_known(expectation: Expectation, window: Window) -> Verdict:
         unknown_s = window.unknown_s()
         if unknown_s is None:

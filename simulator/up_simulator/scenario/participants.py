@@ -108,14 +108,6 @@ class DaemonParticipants(Participants, ABC):
         self._should_run = False
 
     @abstractmethod
-    def seconds(self) -> float:
-        """Return the participants' time."""
-
-    @abstractmethod
-    def exchange(self, step_s: float) -> None:
-        """Pass bytes and advance by this time; raises ParticipantError when one has died."""
-
-    @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
         """Attach or remove the serial port."""
 

@@ -78,14 +78,6 @@ class Files:
         return True
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
-    """The folder of the files; None: no files. Pictures are optional."""
-
-    folder: Path | None
-    has_picture: bool = True
-
-
 class CannotFlyError(Exception):
     """A requirement of a scenario is missing here: the message is one sentence for the user.
 
@@ -145,12 +137,11 @@ def try_folder(folder: Path) -> None:
         file.write(bytes(4096))
 
 
-def write_files(name: str, result: Result, output: Output, notify: Notify) -> Files:
+def write_files(
+    name: str, result: Result, folder: Path, notify: Notify, *, has_picture: bool
+) -> Files:
     """Write logs, picture, summary and report, each if it can be."""
     files = Files()
-    folder = output.folder
-    if folder is None:
-        return files
     folder.mkdir(parents=True, exist_ok=True)
     logs = [(LOG, result.record.log)]
     if result.control is not None:
@@ -162,7 +153,7 @@ def write_files(name: str, result: Result, output: Output, notify: Notify) -> Fi
     if files.put(flight_log, lambda path: write_flight(name, result, path)):
         files.written.append(flight_log)
     _write_black_boxes(result.record.black_boxes, folder / BLACK_BOXES, files)
-    if output.has_picture and len(result.record.log):
+    if has_picture and len(result.record.log):
         _draw(result, folder / PICTURE, files, notify)
     for path in (folder / CONTROL_LOG, folder / PICTURE):
         if path not in files.written:
@@ -194,14 +185,12 @@ def _write_below(data: bytes, path: Path) -> None:
 def _draw(result: Result, path: Path, files: Files, notify: Notify) -> None:
     record = result.record
     weather = record.scenario.weather
-    failures = list(failed_parts(result))
-
     draw = partial(
         draw_flight,
         record.log,
         title=record.scenario.title,
         subtitle=_subtitle(record),
-        failures=failures,
+        failures=list(failed_parts(result)),
         wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
     )
     try:

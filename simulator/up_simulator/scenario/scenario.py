@@ -247,5 +247,4 @@ class Scenario:
 
     @property
     def has_raspilot(self) -> bool:
-        """Return whether there is a Raspberry Pi aboard."""
         return self.raspilot.runs != "no"

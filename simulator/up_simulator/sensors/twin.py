@@ -38,7 +38,6 @@ class RegisterChip:
         return self.registers[register]
 
     def put(self, register: int, data: Iterable[int]) -> None:
-        """Set registers from one on."""
         for at, value in enumerate(data):
             self.registers[register + at] = value
 

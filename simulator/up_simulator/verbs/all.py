@@ -30,7 +30,6 @@ from up_simulator.verbs.catalogue import (
     INTERRUPTED,
     NOT_HELD,
     WRONG_INPUT,
-    name_of,
     no_such_tag,
     shipped_paths,
     verb_parser,
@@ -70,7 +69,7 @@ class Job:
 
     @property
     def name(self) -> str:
-        return name_of(self.path)
+        return self.path.stem
 
     def start(self, options: argparse.Namespace) -> None:
         # A summary of an earlier run must not be taken for this one's.
@@ -95,7 +94,6 @@ class Job:
         return True
 
     def summary(self) -> dict[str, object]:
-        """Return its own output; empty if it did not get so far."""
         try:
             found = json.loads((self.folder / SUMMARY).read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -140,7 +138,7 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
         tags.update(scenario.tags)
         if set(options.tag) <= set(scenario.tags):
             flights = 1 if scenario.control is None else 2
-            folder = options.output / name_of(path)
+            folder = options.output / path.stem
             job = Job(path, scenario.is_real, folder, _missing(scenario))
             jobs.append((-scenario.duration_s * flights, job))
     if options.tag and not jobs and not has_mistakes:

@@ -61,8 +61,3 @@ def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
     hint = suggestion(unknown[0], names) if unknown else ""
     hint = hint or f": there are {', '.join(names)}"
     return UsageError(f"no scenario has the tag {asked}{hint}", "no_such_tag")
-
-
-def name_of(path: Path) -> str:
-    """Return the name of a scenario in reports and folders."""
-    return path.stem

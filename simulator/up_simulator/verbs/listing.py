@@ -16,7 +16,6 @@ from up_simulator.scenario.scenario import Scenario
 from up_simulator.verbs.catalogue import (
     HELD,
     WRONG_INPUT,
-    name_of,
     no_such_tag,
     shipped_paths,
     verb_parser,
@@ -49,7 +48,7 @@ def main(arguments: Sequence[str]) -> int:
     tags: set[str] = set()
     is_empty = True
     rows: list[dict[str, object]] = []
-    width = max((len(name_of(path)) for path in paths), default=0)
+    width = max((len(path.stem) for path in paths), default=0)
     status = HELD
     for path in paths:
         try:
@@ -66,7 +65,7 @@ def main(arguments: Sequence[str]) -> int:
                 continue
             pace = "real time" if scenario.is_real else ""
             title = scenario.title.strip()
-            line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {title}"
+            line = f"{path.stem:<{width}}  {scenario.duration_s:>5g} s  {title}"
             more = "; ".join(part for part in (", ".join(scenario.tags), pace) if part)
             sys.stdout.write(printable(f"{line}  [{more}]" if more else line) + "\n")
             if scenario.guards:
@@ -80,7 +79,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _row(path: Path, scenario: Scenario) -> dict[str, object]:
     return {
-        "name": name_of(path),
+        "name": path.stem,
         "file": str(path),
         "duration_s": scenario.duration_s,
         "title": scenario.title.strip(),
