@@ -67,7 +67,6 @@ class TokenStore:
         return text if is_token(text) else None
 
     def save(self, token: str) -> None:
-        """Keep a token, readable by this user alone."""
         if self._lock is None:
             return
         fresh = self._path.with_suffix(f".{secrets.token_hex(4)}")

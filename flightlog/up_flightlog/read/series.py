@@ -83,7 +83,6 @@ class Columns:
             self._groups.setdefault(tuple(group), []).append((key, series))
 
     def add_all(self, times_s: Sequence[float], messages: Sequence[Mapping[str, Any]]) -> None:
-        """Add the messages of these times."""
         times = array("d", times_s)
         for group, fields in self._groups.items():
             inner = [value_at(each, group) for each in messages] if group else messages

@@ -15,7 +15,7 @@ from up_flightlog.report.formatting import clock_text
 from up_flightlog.report.gains import GainSet, changes, gain_sets, requested_sets
 from up_flightlog.report.ground_track import place_error_m
 from up_flightlog.report.html_text import Markup, join, table, tag
-from up_flightlog.report.report_data import LOCATION, first_link
+from up_flightlog.report.report_data import first_link
 
 _NAMES = {"alarm": "alarm", "warning": "warning", "info": "note"}
 
@@ -90,7 +90,7 @@ def truth(content: ReportContent) -> Markup | None:
     data = content.data
     rows = []
     # Without measured positions the log has the true ones, marked as such.
-    has_source = first_link(content.log, LOCATION) != "simulator"
+    has_source = first_link(content.log) != "simulator"
     for each in content.summary.estimate_errors:
         rows.append([each.axis, f"{each.rms_deg:.2f} deg", f"{each.worst_deg:.2f} deg"])
     _, found = error_of(data.altitude, data.truth["altitude_m"], is_angle=False)

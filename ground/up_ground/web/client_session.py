@@ -150,7 +150,6 @@ class ClientSession:
         return self.denial is None
 
     def send(self, message: dict[str, Any]) -> None:
-        """Send a message in order; lost while the page is disconnected."""
         self.send_bytes(message_bytes(message))
 
     def send_bytes(self, message: bytes) -> None:

@@ -137,7 +137,6 @@ class TileSource:
 
 
 def _finish_refused(request: Any) -> None:
-    """Answer that the source failed."""
     finish(request, refuse(request, http.BAD_GATEWAY, "the map's source returned no tile"))
 
 
