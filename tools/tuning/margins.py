@@ -149,11 +149,6 @@ class Margins:
     delay_margin_ms: float | None
     peak_sensitivity: float
 
-    @property
-    def is_stable(self) -> bool:
-        gain, phase = self.gain_margin_db, self.phase_margin_deg
-        return (gain is None or gain > 0) and (phase is None or phase > 0)
-
 
 def margins_of(points: Sequence[LoopPoint]) -> Margins:
     """Return the margins of a loop whose open loop response is known at rising frequencies.

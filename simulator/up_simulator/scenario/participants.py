@@ -59,8 +59,8 @@ class Participants:
         """Return whether the flight may begin: all expected participants have connected."""
         return True
 
-    def exchange(self, step_s: float) -> None:
-        """Pass bytes and advance by this time; raises ParticipantError when one has died.
+    def exchange(self) -> None:
+        """Pass bytes and advance by a step; raises ParticipantError when one has died.
 
         Here: listen, and request the streams again after a reset, which ends them.
         """

@@ -18,7 +18,7 @@ from up_simulator.harness.two_paths import (
     TwoPaths,
     check_paths,
 )
-from up_simulator.harness.world import BYTES_A_STEP
+from up_simulator.harness.world import BYTES_A_STEP, STEP_S
 from up_simulator.in_process.config_folder import mavlink_file, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.mavlink_ground import MavlinkGround
@@ -95,7 +95,7 @@ class RealParticipants(DaemonParticipants):
             self._proxy.wait_for_ports()
         super().start()
 
-    def exchange(self, step_s: float) -> None:
+    def exchange(self) -> None:
         line = self._line
         if line is not None:
             data = line.read(0.0, BYTES_A_STEP)
@@ -108,7 +108,7 @@ class RealParticipants(DaemonParticipants):
             self.receiver.exchange(self._receiver_line, self._flight.state)
         if self.goggles is not None and self._goggles_line is not None:
             self.goggles.exchange(self._goggles_line)
-        self._reactor.advance(step_s)
+        self._reactor.advance(STEP_S)
         self.check_raspilot()
 
     def check_raspilot(self) -> None:

@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from up_flightlog.plots.canvas import PictureError
+from up_flightlog.plots.overview import overview_png
 from up_flightlog.plots.track_picture import Wind
 from up_simulator.aircraft import AirframeError
 from up_simulator.aircraft.flight import FlightUnavailableError
@@ -20,7 +21,7 @@ from up_simulator.firmware.preparation import PreparationError, SettingsError
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import interrupts_between_steps
 from up_simulator.harness.two_paths import PathsUnavailableError
-from up_simulator.picture.flight_picture import draw_flight
+from up_simulator.picture.flight_picture import overview_of
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
 from up_simulator.scenario.flight_record import FlightRecord
@@ -185,16 +186,16 @@ def _write_below(data: bytes, path: Path) -> None:
 def _draw(result: Result, path: Path, files: Files, notify: Notify) -> None:
     record = result.record
     weather = record.scenario.weather
-    draw = partial(
-        draw_flight,
-        record.log,
-        title=record.scenario.title,
-        subtitle=_subtitle(record),
-        failures=list(failed_parts(result)),
-        wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
-    )
     try:
-        if files.put(path, draw):
+        overview = overview_of(
+            record.log,
+            title=record.scenario.title,
+            subtitle=_subtitle(record),
+            failures=list(failed_parts(result)),
+            wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
+        )
+        picture = overview_png(overview)
+        if files.put(path, lambda path: path.write_bytes(picture)):
             files.written.append(path)
     except PictureError as error:
         notify(str(error))

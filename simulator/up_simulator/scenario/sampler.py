@@ -151,7 +151,7 @@ def _truth(dynamics: Dynamics) -> Iterable[tuple[str, Any]]:
     state = dynamics.state
     for name, attribute in _TRUTH:
         yield name, getattr(state, attribute)
-    yield "truth.crashed", getattr(dynamics, "crash", None) is not None
+    yield "truth.crashed", dynamics.crash is not None
 
 
 def _board(tap: LineMonitor, now_s: float) -> Iterable[tuple[str, Any]]:

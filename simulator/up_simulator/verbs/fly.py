@@ -59,7 +59,7 @@ def main(arguments: Sequence[str]) -> int:
         result, is_written = _fly(path.stem, scenario, options)
         results.append((path.stem, result))
         is_whole = is_whole and is_written
-        if result.record.is_interrupted or (result.control and result.control.is_interrupted):
+        if result.is_interrupted:
             break
     if len(flights) > 1:
         _print_table(results, len(flights))
