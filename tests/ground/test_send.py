@@ -1,5 +1,3 @@
-"""`up-ground send`: real programs, a real proxy, a small aircraft."""
-
 import json
 import socket
 

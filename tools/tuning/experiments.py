@@ -174,20 +174,13 @@ class RoughFlight:
     crash: str | None
 
 
-def fly_rough(
-    bench: Bench,
-    gains: GainSet,
-    turbulence: str = "moderate",
-    seconds: float = 20.0,
-    seeds: Sequence[int] = (1, 2, 3),
-) -> RoughFlight:
-    """Hold level in turbulence, once for each seed of the air."""
+def fly_rough(bench: Bench, gains: GainSet, seconds: float, seeds: Sequence[int]) -> RoughFlight:
+    """Hold level in moderate turbulence, once for each seed of the air."""
     sums = [0.0] * 3
     count = 0
     crash = None
     for seed in seeds:
-        weather = Weather(turbulence=turbulence)  # type: ignore[arg-type]
-        trial = bench.trial(gains, weather, seed)
+        trial = bench.trial(gains, Weather(turbulence="moderate"), seed)
         trial.fly(SETTLE_S)
         recording = trial.fly(seconds)
         crash = crash or recording.crash

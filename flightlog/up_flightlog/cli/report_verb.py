@@ -29,7 +29,7 @@ def run(values: argparse.Namespace) -> int:
     _check_new(folder, may_overwrite=values.force)
     log = FlightLog.read(flight.paths)
     with DecodingProgress("analysing", log):
-        content = report_content(log, flight.name, flight.number)
+        content = report_content(log, flight.number)
     files = write_report(content, folder, may_overwrite=values.force)
     _, sentence = verdict_of(content.summary, content.findings)
     echo(printable(sentence))

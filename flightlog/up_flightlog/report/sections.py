@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
 from up_flightlog.read.series import error_of
 from up_flightlog.read.spans import duration_text
@@ -120,9 +119,7 @@ def gains(content: ReportContent) -> Markup | None:
         parts.append(tag("h3", _changed(sets[0], verb)))
     parts.append(_gain_table(sets[0]))
     for before, after in pairwise(sets):
-        rows = [
-            [_gain_name(key), _gain(old), _gain(new)] for key, old, new in changes(before, after)
-        ]
+        rows = [[" ".join(key), _gain(old), _gain(new)] for key, old, new in changes(before, after)]
         parts.append(tag("h3", _changed(after, verb)))
         parts.append(table(["gain", "before", "after"], rows, right=(1, 2)))
     return join(*parts)
@@ -162,10 +159,6 @@ def _gain_table(gains: GainSet) -> Markup:
         ],
         right=(2, 3, 4),
     )
-
-
-def _gain_name(key: Key) -> str:
-    return " ".join(key)
 
 
 def _gain(value: float | None) -> str:

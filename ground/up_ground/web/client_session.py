@@ -99,10 +99,6 @@ class PageSendBuffer(BaseOutput):
         super().__init__()
         self._on_overrun = on_overrun
 
-    @property
-    def waiting_bytes(self) -> int:
-        return self._size
-
     def send(self, message: bytes) -> None:
         if self._transport is None:
             return

@@ -33,7 +33,8 @@ BETAS_DEG = tuple(
 _STEP = 0.01
 _PLATE_NORMAL = 1.25
 _DRAG_OF_LIFT = 0.008
-_DRAG_OF_DEFLECTION = 0.15
+DRAG_OF_DEFLECTION = 0.15
+"""Of a surface, by the square of the deflection, per square radian."""
 _FIN_STALL_DEG = 16.0
 _TAIL_STALL_DEG = 24.0
 _CROSSFLOW_DRAG = 0.8
@@ -228,11 +229,6 @@ class Derivation:
         left = share + (1 - share) * 0.35 * abs(math.cos(math.radians(alpha_deg)))
         found = self.by("elevator")
         return found.lift * left, found.pitch * left
-
-    @property
-    def deflection_drag(self) -> float:
-        """Return the drag by the square of a deflection, per square radian."""
-        return _DRAG_OF_DEFLECTION
 
     @cached_property
     def crossflow_drag(self) -> float:

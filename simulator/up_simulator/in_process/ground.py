@@ -86,7 +86,7 @@ class InProcessGround:
 
     def start(self) -> None:
         if self._link is None:
-            self._host = self._reactor.host("ground")
+            self._host = self._reactor.host()
             backoff = Backoff(Random(self._seed).random)
             link = GroundLink(self._host, self._settings, self, self._tokens, backoff)
             self._link = link

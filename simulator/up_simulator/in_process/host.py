@@ -34,8 +34,7 @@ class SimulatedHost:
     ``cut_off`` kills the program: no timer, descriptor or port of it is left.
     """
 
-    def __init__(self, reactor: SimulatedReactor, name: str) -> None:
-        self.name = name
+    def __init__(self, reactor: SimulatedReactor) -> None:
         self.running = True
         self.reactor = reactor
         self.network = reactor.network

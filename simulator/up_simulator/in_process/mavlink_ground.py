@@ -54,7 +54,7 @@ class MavlinkGround:
         self._loop = LoopingCall(self._on_period)
 
     def start(self) -> None:
-        host: Any = self._reactor.host("mavlink ground")
+        host: Any = self._reactor.host()
         self._host = self._loop.clock = host
         self._loop.start(PERIOD_S)
 

@@ -42,7 +42,7 @@ class InProcessPhone:
         self._place = RaspberryPi(ADDRESS, general_port, orientation_port)
         for port in (general_port, orientation_port):
             reactor.link(port, self.up, self.down)
-        self._host = reactor.host("phone")
+        self._host = reactor.host()
         self.handset = PythonHandset(
             self._host, flight, self.find, orientation, text_log(self._note), seed=seed
         )

@@ -127,15 +127,11 @@ class InProcessRaspilot:
         """Return the newest lines of all starts, with simulated seconds."""
         return list(self._log.lines)
 
-    @property
-    def ports(self) -> dict[str, int]:
-        return {} if self.up is None else dict(self.up.ports)
-
     def start(self) -> None:
         """Begin to boot; raises ParticipantError with every error that the program would print."""
         if self.is_running:
             raise ParticipantError("Raspilot is already running")
-        host = self._reactor.host("raspilot")
+        host = self._reactor.host()
         application = None
         try:
             application = Application.installed("raspilot")

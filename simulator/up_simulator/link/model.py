@@ -6,6 +6,8 @@ import math
 import random
 from dataclasses import dataclass
 
+from up.config import key
+
 
 @dataclass(frozen=True, slots=True)
 class LinkSettings:
@@ -16,10 +18,20 @@ class LinkSettings:
     queue; 0 means no bottleneck.
     """
 
-    delay_ms: float = 0.0
-    jitter_ms: float = 0.0
-    loss_percent: float = 0.0
-    rate_bytes_s: float = 0.0
+    delay_ms: float = key(0.0, "Transit time of each packet.", unit="ms", minimum=0, maximum=60_000)
+    jitter_ms: float = key(
+        0.0, "Maximum random additional transit time.", unit="ms", minimum=0, maximum=60_000
+    )
+    loss_percent: float = key(
+        0.0,
+        "Share of lost packets; TCP retransmits them.",
+        unit="%",
+        minimum=0,
+        maximum=100,
+    )
+    rate_bytes_s: float = key(
+        0.0, "Maximum bytes per second; 0: unlimited.", unit="B/s", minimum=0, maximum=1e9
+    )
 
     def __post_init__(self) -> None:
         for name in ("delay_ms", "jitter_ms", "loss_percent", "rate_bytes_s"):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from up.config import items, key, section
 from up.fields import Constraint
@@ -50,31 +49,6 @@ class StartPart:
         minimum=0,
         maximum=1,
     )
-
-
-@dataclass(frozen=True, slots=True)
-class Gust:
-    """A gust: moving air that rises and fades as (1 - cos)."""
-
-    at_s: float = key(0.0, "Start time.", unit="s", minimum=0, maximum=3600)
-    duration_s: float = key(1.0, "Duration.", unit="s", minimum=0.02, maximum=600)
-    north_m_s: float = key(0.0, "Speed to the north.", unit="m/s", minimum=-30, maximum=30)
-    east_m_s: float = key(0.0, "Speed to the east.", unit="m/s", minimum=-30, maximum=30)
-    down_m_s: float = key(0.0, "Speed down.", unit="m/s", minimum=-30, maximum=30)
-
-
-@dataclass(frozen=True, slots=True)
-class WeatherPart:
-    """Wind, turbulence and gusts."""
-
-    wind_m_s: float = key(0.0, "Wind speed.", unit="m/s", minimum=0, maximum=30)
-    wind_from_deg: float = key(
-        180.0, "Direction that the wind comes from: 0 is north.", unit="deg", minimum=0, maximum=360
-    )
-    turbulence: Literal["none", "light", "moderate", "severe"] = key(
-        "none", "Spectrum of MIL-F-8785C, different for every seed."
-    )
-    gusts: tuple[Gust, ...] = items(Gust, "Single gusts.", max_length=100)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,31 +128,8 @@ class ImuPart:
 
 
 @dataclass(frozen=True, slots=True)
-class LinkSettingsPart:
-    """One direction of the link between aircraft and ground."""
-
-    delay_ms: float = key(0.0, "Transit time of each packet.", unit="ms", minimum=0, maximum=60_000)
-    jitter_ms: float = key(
-        0.0, "Maximum random additional transit time.", unit="ms", minimum=0, maximum=60_000
-    )
-    loss_percent: float = key(
-        0.0,
-        "Share of lost packets; TCP retransmits them.",
-        unit="%",
-        minimum=0,
-        maximum=100,
-    )
-    rate_bytes_s: float = key(
-        0.0, "Maximum bytes per second; 0: unlimited.", unit="B/s", minimum=0, maximum=1e9
-    )
-
-    def settings(self) -> LinkSettings:
-        return LinkSettings(self.delay_ms, self.jitter_ms, self.loss_percent, self.rate_bytes_s)
-
-
-@dataclass(frozen=True, slots=True)
 class LinkPart:
     """The link between aircraft and ground, such as a cellular network."""
 
-    up: LinkSettingsPart = section(LinkSettingsPart, "From the aircraft to the ground.")
-    down: LinkSettingsPart = section(LinkSettingsPart, "From the ground to the aircraft.")
+    up: LinkSettings = section(LinkSettings, "From the aircraft to the ground.")
+    down: LinkSettings = section(LinkSettings, "From the ground to the aircraft.")

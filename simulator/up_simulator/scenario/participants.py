@@ -227,8 +227,7 @@ class DaemonParticipants(Participants, ABC):
         self._set_link(self.scenario.link)
 
     def _set_link(self, link: LinkPart) -> None:
-        self.up.settings = link.up.settings()
-        self.down.settings = link.down.settings()
+        self.up.settings, self.down.settings = link.up, link.down
 
     def _fail_link(self, kind: str) -> None:
         for model in (self.up, self.down):

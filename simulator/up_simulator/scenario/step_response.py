@@ -133,10 +133,6 @@ def _check(
     end: float,
     until_s: float | None,
 ) -> None:
-    if len(times_s) != len(values):
-        raise StepError(
-            f"{len(times_s)} times do not go with {len(values)} values", "lengths_differ"
-        )
     for name, number in (("at_s", at_s), ("start", start), ("end", end), ("until_s", until_s)):
         if number is not None and not math.isfinite(number):
             raise StepError(f"{name} is not a finite number: {number}", "not_finite")

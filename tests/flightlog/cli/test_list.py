@@ -1,5 +1,3 @@
-"""``up log list``."""
-
 import fcntl
 import io
 import json

@@ -17,7 +17,6 @@ def measure(text):
 
 
 def extent(placed):
-    """Return from where to where a label goes, inches."""
     line = placed.mark.at_s / SECONDS * WIDTH_IN
     wide = measure(placed.text) + GAP_IN
     return (line - wide, line) if placed.is_left else (line, line + wide)

@@ -88,7 +88,7 @@ def report_of(folder, fill=quiet, **more):
 
 def written(folder):
     flight = find_flight("last", lambda: folder / "flights")
-    content = report_content(FlightLog.read(flight.paths), flight.name, flight.number)
+    content = report_content(FlightLog.read(flight.paths), flight.number)
     files = write_report(content, folder / "report", may_overwrite=False)
     assert files[0] == folder / "report" / "report.html"
     return Page(files[0].read_text()), files, content
@@ -218,7 +218,7 @@ def test_an_existing_report_is_kept(report, tmp_path):
 def test_the_verdict_of_a_quiet_flight(tmp_path):
     write_flight(tmp_path / "flights", 1)
     flight = find_flight("last", lambda: tmp_path / "flights")
-    content = report_content(FlightLog.read(flight.paths), flight.name)
+    content = report_content(FlightLog.read(flight.paths))
     level, text = verdict_of(content.summary, content.findings)
     assert (level, content.findings) == ("good", [])
     assert all(value in text for value in ("20 s", "10 s", "211 m"))
@@ -256,7 +256,7 @@ def test_a_damaged_log_has_a_page_or_an_error(tmp_path_factory, data):
         content[at] = data.draw(st.integers(0, 255))
     path.write_bytes(content[: data.draw(st.integers(0, len(content)))])
     try:
-        content = report_content(FlightLog.read([path]), path.stem)
+        content = report_content(FlightLog.read([path]))
         page = Page(page_of(content, {}))
     except FlightLogError as error:
         assert path.name in str(error)

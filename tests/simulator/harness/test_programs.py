@@ -3,11 +3,10 @@
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-from tests.support.waiting import DEADLINE_S, until
+from tests.support.waiting import DEADLINE_S, is_running, until
 from up_rig.pty_line import PtyLine
 from up_simulator.firmware.wire import checked_frame
 from up_simulator.harness.child import Child
@@ -80,14 +79,6 @@ def test_it_ends_when_we_are_killed(tmp_path):
     us.wait()
     us.stdout.close()
     until(lambda: not is_running(pid), "its end")
-
-
-def is_running(pid):
-    try:
-        state = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
-    except (FileNotFoundError, ProcessLookupError):
-        return False
-    return state != "Z"
 
 
 @pytest.fixture

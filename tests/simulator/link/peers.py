@@ -81,7 +81,6 @@ class Bench:
 
     @property
     def waiting(self):
-        """Return the bytes on their way, of all connections."""
         ends = [end for each in self.relay.connections for end in (each.near, each.far)]
         return sum(end.outgoing.waiting for end in ends)
 
@@ -151,5 +150,4 @@ class UdpPeer(DatagramProtocol):
 
 
 def flown(function, *arguments):
-    """Run a coroutine on the real reactor."""
     return run_in_reactor(function, *arguments)

@@ -206,7 +206,6 @@ def test_a_paused_reader_stops_the_sender_within_bounded_memory():
 
 
 def unsent(peer):
-    """Return how many bytes still wait in a peer's own program."""
     transport = peer.transport
     waiting = len(transport.dataBuffer) - transport.offset
     return waiting + sum(map(len, transport._tempDataBuffer))

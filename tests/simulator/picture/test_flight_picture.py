@@ -27,7 +27,6 @@ def flight():
 
 
 def drawn(log, **options):
-    """Return the figure of the picture."""
     figure = Figure()
     FigureCanvasAgg(figure)
     draw_overview(Sheet(figure, DAYLIGHT), overview_of(log, **options))
@@ -35,7 +34,6 @@ def drawn(log, **options):
 
 
 def words(figure):
-    """Return the texts of a picture."""
     return "\n".join(each.get_text() for each in figure.findobj(Text))
 
 

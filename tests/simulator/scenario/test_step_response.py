@@ -132,7 +132,6 @@ GOOD = [index * 0.1 for index in range(40)]
 @pytest.mark.parametrize(
     ("times", "values", "at", "start", "end", "code"),
     [
-        (GOOD, GOOD[:-1], 1, 0, 1, "lengths_differ"),
         (GOOD, [*GOOD[:-1], math.nan], 1, 0, 1, "not_finite"),
         (GOOD, [*GOOD[:-1], math.inf], 1, 0, 1, "not_finite"),
         ([*GOOD[:-1], 0.0], GOOD, 1, 0, 1, "times_not_rising"),
