@@ -8,7 +8,7 @@ function states its assumptions.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from up_simulator.aircraft.geometry import Geometry
@@ -40,17 +40,6 @@ _TAIL_STALL_DEG = 24.0
 _CROSSFLOW_DRAG = 0.8
 
 
-@dataclass(frozen=True, slots=True)
-class Derivatives:
-    """How the loads change with one thing: per radian, or per unit of a rate made pure."""
-
-    lift: float
-    side: float
-    roll: float
-    pitch: float
-    yaw: float
-
-
 class Derivation:
     """The coefficients of one geometry. References: wing area, span, mean aerodynamic chord."""
 
@@ -60,7 +49,7 @@ class Derivation:
         self.aspect = self.span_m**2 / self.area_m2
         self._lattice = lattice_of(geometry)
         self._loads: dict[float, Loads] = {}
-        self._derivatives: dict[tuple[str, float], Derivatives] = {}
+        self._derivatives: dict[tuple[str, float], Loads] = {}
 
     def loads(self, alpha_deg: float) -> Loads:
         """Return the loads of attached flow without sideslip, rates and deflections."""
@@ -69,13 +58,16 @@ class Derivation:
             self._loads[alpha_deg] = self._lattice.loads(flow)
         return self._loads[alpha_deg]
 
-    def by(self, what: str, alpha_deg: float = 0.0) -> Derivatives:
-        """Return the derivatives by ``alpha_rad``, ``beta_rad``, a rate or a control's name."""
+    def by(self, what: str, alpha_deg: float = 0.0) -> Loads:
+        """Return the derivatives by ``alpha_rad``, ``beta_rad``, a rate or a control's name.
+
+        They are per radian, or per unit of a rate made pure.
+        """
         if (what, alpha_deg) not in self._derivatives:
             self._derivatives[what, alpha_deg] = self._differentiate(what, alpha_deg)
         return self._derivatives[what, alpha_deg]
 
-    def _differentiate(self, what: str, alpha_deg: float) -> Derivatives:
+    def _differentiate(self, what: str, alpha_deg: float) -> Loads:
         alpha = math.radians(alpha_deg)
         sides = []
         for step in (_STEP, -_STEP):
@@ -88,7 +80,7 @@ class Derivation:
                 flow = replace(flow, **{what: step})  # type: ignore[arg-type]
             sides.append(self._lattice.loads(flow))
         above, below = sides
-        return Derivatives(
+        return Loads(
             *(
                 float(getattr(above, name) - getattr(below, name)) / (2 * _STEP)
                 for name in ("lift", "side", "roll", "pitch", "yaw")

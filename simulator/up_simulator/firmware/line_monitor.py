@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
 
 from up.commands.board_schema import STATUS, BoardStatus
+from up.commands.orientation_command import OrientationCommand
 from up_simulator.firmware.wire import CheckedReader, Command, checked_frame
 
 SIZES = {
@@ -13,19 +13,6 @@ SIZES = {
 }  # fmt: skip
 """Payload bytes of every message from the Arduino in checked framing (protocols 2.4)."""
 _ORIENTATION = struct.Struct(">H6f")
-
-
-@dataclass(frozen=True, slots=True)
-class BoardOrientation:
-    """The board's estimate of its attitude: ``O``, in degrees and degrees per second."""
-
-    sequence: int
-    yaw_deg: float
-    pitch_deg: float
-    roll_deg: float
-    yaw_rate_deg_s: float
-    pitch_rate_deg_s: float
-    roll_rate_deg_s: float
 
 
 class LineMonitor:
@@ -40,7 +27,7 @@ class LineMonitor:
         self._sequence = 0
         self.status: BoardStatus | None = None
         self.status_s = -float("inf")
-        self.orientation: BoardOrientation | None = None
+        self.orientation: OrientationCommand | None = None
         self.orientation_s = -float("inf")
         self.mode: str | None = None
         self.answers: list[Command] = []
@@ -78,7 +65,11 @@ class LineMonitor:
                 self.status, self.status_s = BoardStatus(*STATUS.unpack(payload)), now_s
                 self.mode = self.status.mode_letter
             case "O":
-                self.orientation = BoardOrientation(*_ORIENTATION.unpack(payload))
+                sequence, yaw, pitch, roll, *rates = _ORIENTATION.unpack(payload)
+                yaw_rate, pitch_rate, roll_rate = rates
+                self.orientation = OrientationCommand(
+                    roll, pitch, yaw, roll_rate, pitch_rate, yaw_rate, sequence
+                )
                 self.orientation_s = now_s
             case "r" | "i":
                 pass
