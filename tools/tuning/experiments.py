@@ -144,11 +144,11 @@ def measure_loop(
         moves = [StickMove(0.5, "elevator", stick_us(bench.airframe, "pitch", DIVE_DEG))]
     trial.fly(DIVE_SETTLE_S if dives else SETTLE_S, moves)
     multisine = Multisine()
-    actuators = trial.actuators
-    begin_s = actuators.time_s
-    actuators.delay_s = delay_s
-    actuators.added_axis = axis
-    actuators.added_us = lambda time_s: multisine.at(time_s - begin_s)
+    dynamics = trial.dynamics
+    begin_s = dynamics.time_s
+    dynamics.delay_s = delay_s
+    dynamics.added_axis = axis
+    dynamics.added_us = lambda time_s: multisine.at(time_s - begin_s)
     given: list[float] = []
     moved: list[float] = []
 
@@ -156,10 +156,10 @@ def measure_loop(
         given.append(by_board[axis])
         moved.append(at_servos[axis])
 
-    actuators.on_step = on_step
+    dynamics.on_step = on_step
     recording = trial.fly(multisine.period_s * periods, sample_s=0.1)
-    if trial.dynamics.crash is not None:
-        raise MarginsError(f"the aircraft {trial.dynamics.crash}", "crashed")
+    if dynamics.crash is not None:
+        raise MarginsError(f"the aircraft {dynamics.crash}", "crashed")
     speed_m_s = fmean(recording["truth.airspeed_m_s"])
     return loop_response(given, moved, multisine, STEP_S), speed_m_s
 

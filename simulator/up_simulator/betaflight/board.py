@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from up_rig.imu import Motion
-from up_simulator.aircraft.flight import Dynamics
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.betaflight.packets import (
     PWM_PORT,
     PWM_SIZE,
@@ -60,7 +60,7 @@ class BetaflightBoard:
     title = "Betaflight (SITL)"
     eeprom = b""
 
-    def __init__(self, flight: Dynamics, program: str = PROGRAM, seed: int = 1) -> None:
+    def __init__(self, flight: FlightDynamics, program: str = PROGRAM, seed: int = 1) -> None:
         self._program = find_program(program)
         self._flight = flight
         self.imu = BoardImu(ImuErrors(), seed)

@@ -30,8 +30,8 @@ def swing_deg_s(bench, factor=1.0, delay_s=0.0):
     """Return the roll rate, rms, that is left of a short kick of the stick 2 s after it."""
     trial = bench.trial(GAINS)
     trial.fly(3.0)
-    trial.actuators.factors = {"roll": factor}
-    trial.actuators.delay_s = delay_s
+    trial.dynamics.factors = {"roll": factor}
+    trial.dynamics.delay_s = delay_s
     kick = [StickMove(3.1, "ailerons", 1600.0), StickMove(3.3, "ailerons", 1500.0)]
     recording = trial.fly(3.3, kick)
     rates = recording["truth.roll_rate_deg_s"][200:]
