@@ -19,11 +19,11 @@ from up.flight_modes.navigation_file import Airspeed
 from up.flight_modes.navigation_state import NavigationState
 from up_simulator.aircraft import Weather
 from up_simulator.aircraft.flight import FlightState
+from up_simulator.aircraft.start import StartPart
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.flight import ScenarioFlight
-from up_simulator.scenario.initial_conditions import StartPart
 from up_simulator.scenario.scenario import GroundPart, PhonePart, RaspilotPart, Scenario
 from up_simulator.scenario.sticks import StickPoint
 

@@ -1,4 +1,4 @@
-"""The initial conditions of a scenario's flight and its environment."""
+"""The environment of a scenario's flight: radio, IMU and link."""
 
 from __future__ import annotations
 
@@ -14,41 +14,6 @@ from up_simulator.link.model import LinkSettings
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
-
-
-def _rate(comment: str) -> float:
-    return key(0.0, comment, unit="deg/s", minimum=-720, maximum=720)
-
-
-@dataclass(frozen=True, slots=True)
-class StartPart:
-    """Initial state in the air, at 0 s."""
-
-    height_m: float = key(120.0, "Above the ground.", unit="m", minimum=1, maximum=5000)
-    airspeed_m_s: float | None = key(
-        None, "null: the cruise speed of the airframe.", unit="m/s", minimum=3, maximum=80
-    )
-    roll_deg: float = key(0.0, "Right wing down positive.", unit="deg", minimum=-180, maximum=180)
-    pitch_deg: float | None = key(
-        None, "Nose up positive. null: that of the airframe.", unit="deg", minimum=-85, maximum=85
-    )
-    heading_deg: float = key(0.0, "0 is north, 90 east.", unit="deg", minimum=0, maximum=360)
-    climb_m_s: float | None = key(
-        None,
-        "Through the air, up positive. null: the climb of the airframe at this pitch.",
-        unit="m/s",
-        minimum=-60,
-        maximum=30,
-    )
-    roll_rate_deg_s: float = _rate("Initial roll rate, right wing down positive.")
-    pitch_rate_deg_s: float = _rate("Initial pitch rate, nose up positive.")
-    yaw_rate_deg_s: float = _rate("Initial yaw rate, clockwise from above positive.")
-    throttle: float | None = key(
-        None,
-        "Initial motor throttle. null: that of the throttle stick at 0 s.",
-        minimum=0,
-        maximum=1,
-    )
 
 
 @dataclass(frozen=True, slots=True)

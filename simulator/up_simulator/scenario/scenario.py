@@ -9,15 +9,11 @@ from typing import Any, Literal
 from up.config import items, key, mapping, section
 from up.fields import Constraint
 from up_simulator.aircraft.model import ModelChoice
+from up_simulator.aircraft.start import StartPart
 from up_simulator.aircraft.weather import Weather
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.expectation import Expectation
-from up_simulator.scenario.initial_conditions import (
-    ImuPart,
-    LinkPart,
-    ReceiverPart,
-    StartPart,
-)
+from up_simulator.scenario.initial_conditions import ImuPart, LinkPart, ReceiverPart
 from up_simulator.scenario.sticks import StickPoint
 from up_simulator.sensors.chips import CHIPS
 
