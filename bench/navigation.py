@@ -22,13 +22,13 @@ from bench.navigation_flight import (
 from bench.navigation_random import fly_at_random, random_rows
 from bench.table import LeftOutError, Row
 from up.flight_modes.demand import Circle, Line, PathDemand
+from up_simulator.aircraft import Weather
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.flight import ScenarioFlight
-from up_simulator.scenario.initial_conditions import WeatherPart
 from up_simulator.scenario.scenario import GpsPart, Scenario
 
 SEEDS, QUICK_SEEDS = 10, 1
@@ -36,12 +36,10 @@ RANDOM_FLIGHTS, QUICK_RANDOM_FLIGHTS = 40, 4
 CONTROLLERS = ("arduino", "raspberry")
 WIND_FROM_DEG = 0.0
 AIRS = {
-    "calm": WeatherPart(wind_from_deg=WIND_FROM_DEG),
-    "6 m/s, moderate": WeatherPart(
-        wind_m_s=6.0, wind_from_deg=WIND_FROM_DEG, turbulence="moderate"
-    ),
+    "calm": Weather(wind_from_deg=WIND_FROM_DEG),
+    "6 m/s, moderate": Weather(wind_m_s=6.0, wind_from_deg=WIND_FROM_DEG, turbulence="moderate"),
 }
-AGAINST = WeatherPart(wind_m_s=7.7, wind_from_deg=WIND_FROM_DEG)
+AGAINST = Weather(wind_m_s=7.7, wind_from_deg=WIND_FROM_DEG)
 """70 % of the airspeed of cruise."""
 RADIUS_M, SMALL_WANDER_M = 50.0, 1.5
 MOTOR_CODE, OVERRUN_CODE = "motor_stopped", "mode_overrun"

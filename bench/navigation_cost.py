@@ -15,8 +15,8 @@ from raspilot.navigation.path_controller import PathController
 from up.flight_modes.demand import Circle, PathDemand
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import Point
+from up_simulator.aircraft import Weather
 from up_simulator.in_process.raspilot import InProcessRaspilot
-from up_simulator.scenario.initial_conditions import WeatherPart
 
 FLIGHT_S = 60.0
 DT_S = 0.02
@@ -52,7 +52,7 @@ def _recorded() -> list[tuple[str, tuple[Any, ...]]]:
         for name in ("orientation", "fix", "throttle", "barometer", "compass"):
             setattr(module.estimator, name, _recording(module.estimator, name, calls))
 
-    weather = WeatherPart(wind_m_s=6.0, wind_from_deg=0.0, turbulence="moderate")
+    weather = Weather(wind_m_s=6.0, wind_from_deg=0.0, turbulence="moderate")
     scenario = scenario_of(1, "arduino", weather, FLIGHT_S, mode_at(5.0, "LOITER"))
     fly(scenario, begun=record)
     return calls

@@ -17,12 +17,13 @@ from up.flight_modes.demand import Demand, PathDemand
 from up.flight_modes.flight_mode import FlightMode
 from up.flight_modes.navigation_file import Airspeed
 from up.flight_modes.navigation_state import NavigationState
+from up_simulator.aircraft import Weather
 from up_simulator.aircraft.flight import FlightState
+from up_simulator.aircraft.start import StartPart
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.flight import ScenarioFlight
-from up_simulator.scenario.initial_conditions import StartPart, WeatherPart
 from up_simulator.scenario.scenario import GroundPart, PhonePart, RaspilotPart, Scenario
 from up_simulator.scenario.sticks import StickPoint
 
@@ -79,7 +80,7 @@ class Flown:
 
 
 def scenario_of(
-    seed: int, controller: str, weather: WeatherPart, duration_s: float, *events: Event
+    seed: int, controller: str, weather: Weather, duration_s: float, *events: Event
 ) -> Scenario:
     return Scenario(
         title="navigation",

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from bench.navigation_flight import Flown, fly, least_over_stall, mode_at, scenario_of
 from bench.table import Row
 from up.flight_modes.navigation_state import LocalFrame, Point
+from up_simulator.aircraft import Weather
 from up_simulator.aircraft.start import START_LATITUDE_DEG, START_LONGITUDE_DEG
 from up_simulator.scenario.event import CommandPart, Event
-from up_simulator.scenario.initial_conditions import WeatherPart
 
 MODES = ("CRUISE", "LOITER", "GUIDED", "RETURN", "CIRCLE")
 FAULTS = ("jumped", "frozen", "lost")
@@ -44,7 +44,7 @@ def fly_at_random(seed: int) -> Outcome:
     controller = ("arduino", "raspberry")[seed % 2]
     wind_m_s = draw.uniform(0.0, MAX_WIND_M_S)
     from_deg, turbulence = draw.uniform(0.0, 360.0), draw.choice(TURBULENCE)
-    weather = WeatherPart(wind_m_s=wind_m_s, wind_from_deg=from_deg, turbulence=turbulence)  # type: ignore[arg-type]
+    weather = Weather(wind_m_s=wind_m_s, wind_from_deg=from_deg, turbulence=turbulence)  # type: ignore[arg-type]
     modes = draw.choice(MODES), draw.choice(MODES)
     fault, fault_s = draw.choice(FAULTS), draw.uniform(*FAULT_S)
     for_s = draw.uniform(*FAULT_FOR_S)

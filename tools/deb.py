@@ -105,7 +105,6 @@ class Builder:
         )
 
     def _environment(self, common: Path, site: Path) -> None:
-        """Make it a virtual environment, with our programs."""
         settings = (
             f"home = /usr/bin\ninclude-system-site-packages = false\nversion = {PYTHON[6:]}\n"
         )

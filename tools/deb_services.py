@@ -73,7 +73,6 @@ class Service:
         return found
 
     def scripts(self, unit: str) -> dict[str, str]:
-        """Return the maintainer scripts."""
         values = {
             "NAME": self.name,
             "UNIT": f"{self.name}.service",

@@ -26,7 +26,7 @@ from up_ground.page_options import add_page_options
 from up_ground.pair import add_pair
 from up_ground.replay.verb import add_replay
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
-from up_ground.token_store import state_folder
+from up_ground.token_store import TokenStore, state_folder
 
 _COUNT, _SECONDS = whole_number(1, 999_999_999), bounded_number(0.001, 1e7, "s")
 
@@ -159,12 +159,14 @@ def _add_connection(
     add("--tls", text, Path(tls) if tls else None, type=Path, metavar="DIR")
 
 
-def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
-    """Return the settings of the peer to connect to; raises UserError for faulty keys."""
-    key = KeyStore(state_folder(os.environ)).get(options.aircraft)
-    return Settings(
+def peer_of(options: argparse.Namespace, seat: Seat) -> tuple[Settings, TokenStore]:
+    """Return the peer to connect to, and the tokens for it; raises UserError for faulty keys."""
+    folder = state_folder(os.environ)
+    key = KeyStore(folder).get(options.aircraft)
+    settings = Settings(
         options.host, options.port, options.aircraft, seat, options.direct, options.tls, key
     )
+    return settings, TokenStore(folder, settings)
 
 
 def _add_watch(verbs: Any) -> None:

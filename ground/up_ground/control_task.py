@@ -33,7 +33,6 @@ class RequestControl(ControlTask):
         self.LIMIT_S = wait_s
 
     def on_control(self, control: ControlStatus) -> None:
-        """Accept control, or request it and name its owner."""
         if control is ControlStatus.OURS:
             self.echo("this ground has control", "control_granted")
             self.finish(EXIT_OK)
@@ -60,7 +59,6 @@ class LeaveControl(ControlTask):
         self._to = to
 
     def on_control(self, control: ControlStatus) -> None:
-        """Release our control and wait for the proxy's confirmation."""
         owner = self.link.status.holder
         if self._has_requested:
             if control is not ControlStatus.OURS and self._to in (None, owner):

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import os
 from importlib.util import find_spec
 from typing import Any
 
 from up.cli.cli_error import UsageError
 from up.cli.verb import add_verb
 from up_ground.settings import Seat
-from up_ground.token_store import TokenStore, state_folder
 
 DEFAULT_LISTEN = "127.0.0.1:8765"
 _EPILOG = """\
@@ -36,7 +34,7 @@ def serve(options: argparse.Namespace) -> int:
     if find_spec("foxglove") is None:
         text = "this needs the Python package foxglove-sdk: pip install 'raspilot[foxglove]'"
         raise UsageError(text, "package_missing")
-    from up_ground.arguments import settings_of
+    from up_ground.arguments import peer_of
     from up_ground.foxglove_server import FoxgloveServer
     from up_ground.one_shot_task import run
     from up_ground.web.listen_address import parse_listen
@@ -45,6 +43,5 @@ def serve(options: argparse.Namespace) -> int:
         listen = parse_listen(options.listen)
     except ValueError as error:
         raise UsageError(str(error), "invalid_listen") from None
-    settings = settings_of(options, Seat.LISTEN)
-    tokens = TokenStore(state_folder(os.environ), settings)
-    return run(lambda reactor: FoxgloveServer(reactor, settings, tokens, listen))
+    peer = peer_of(options, Seat.LISTEN)
+    return run(lambda reactor: FoxgloveServer(reactor, *peer, listen))

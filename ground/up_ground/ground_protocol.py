@@ -46,7 +46,6 @@ class GroundProtocol(Protocol):
         return self._lines.dropped_too_long
 
     def send(self, line: bytes) -> bool:
-        """Send a whole line; return False if the connection is lost."""
         if not self._is_open:
             return False
         self._told_s = self._clock.seconds()

@@ -25,7 +25,6 @@ class KeyStore:
         return self.all().get(aircraft)
 
     def all(self) -> dict[str, Pairing]:
-        """Return all keys by aircraft."""
         try:
             lines = _read_secrets(self._path).splitlines()
         except FileNotFoundError:
@@ -37,7 +36,6 @@ class KeyStore:
         return {each.aircraft: each for each in found if each is not None}
 
     def put(self, pairing: Pairing) -> None:
-        """Keep a key, in place of an older one of that aircraft."""
         self._write({**self.all(), pairing.aircraft: pairing})
 
     def forget(self, aircraft: str) -> bool:

@@ -40,7 +40,6 @@ class LinkSecurity:
         self._timer: Timer | None = None
 
     def start(self, send: Callable[[bytes], Any]) -> None:
-        """Begin on an open connection."""
         self._send = send
         self._hello()
 

@@ -18,21 +18,19 @@ from up.fields import show
 from up.output import echo
 from up.protocols.general_message import encode
 from up.system.figures import PACKAGE_MISSING, is_installed
-from up_ground.arguments import make_parser, settings_of
+from up_ground.arguments import make_parser, peer_of
 from up_ground.catalogue import Catalogue, command_fields, describe, fault_of
 from up_ground.control_task import LeaveControl, RequestControl
 from up_ground.one_shot_task import OneShotTask, print_error, run
 from up_ground.send import Send, parse_fields
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal
-from up_ground.token_store import TokenStore, state_folder
 from up_ground.watch import JSONWatch, OnceWatch, PlainWatch, ScreenWatch, Watch, is_terminal
 
 
 def watch(options: argparse.Namespace) -> int:
     """Show an aircraft in the requested form."""
-    settings = settings_of(options, Seat(options.seat))
-    tokens = TokenStore(state_folder(os.environ), settings)
+    peer = peer_of(options, Seat(options.seat))
     more: dict[str, Any] = {"for_s": options.for_s, "count": options.count}
     form: type[Watch] = PlainWatch
     if options.once or options.json:
@@ -41,12 +39,10 @@ def watch(options: argparse.Namespace) -> int:
         terminal = Terminal()
         terminal.enter()
         try:
-            return run(
-                lambda reactor: ScreenWatch(reactor, settings, tokens, terminal=terminal, **more)
-            )
+            return run(lambda reactor: ScreenWatch(reactor, *peer, terminal=terminal, **more))
         finally:
             terminal.leave()
-    return run(lambda reactor: form(reactor, settings, tokens, **more))
+    return run(lambda reactor: form(reactor, *peer, **more))
 
 
 def send(options: argparse.Namespace) -> int:
@@ -64,13 +60,11 @@ def send(options: argparse.Namespace) -> int:
         cls = _known(catalogue, options.name)
         if fault := fault_of(cls, data):
             raise UsageError("\n".join([fault, *describe(cls)]), "invalid_data")
-    settings = settings_of(options, Seat.COMMAND)
-    tokens = TokenStore(state_folder(os.environ), settings)
+    peer = peer_of(options, Seat.COMMAND)
     return run(
         lambda reactor: Send(
             reactor,
-            settings,
-            tokens,
+            *peer,
             options.name,
             data,
             needs_beacon=cls is not None and cls.NEEDS_BEACON,
@@ -82,14 +76,13 @@ def control(options: argparse.Namespace) -> int:
     """Request control, hand it over or release it."""
     if options.direct:
         raise UsageError("a direct link has no control to request", "direct")
-    settings = settings_of(options, Seat.COMMAND)
-    tokens = TokenStore(state_folder(os.environ), settings)
+    peer = peer_of(options, Seat.COMMAND)
 
     def make(reactor: Any) -> OneShotTask:
         if options.action == "request":
-            return RequestControl(reactor, settings, tokens, wait_s=options.wait)
+            return RequestControl(reactor, *peer, wait_s=options.wait)
         to = options.to if options.action == "give" else None
-        return LeaveControl(reactor, settings, tokens, to=to)
+        return LeaveControl(reactor, *peer, to=to)
 
     return run(make)
 

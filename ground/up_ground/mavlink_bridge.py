@@ -80,7 +80,6 @@ class MAVLinkBridge(LinkTask):
         await super().stop()
 
     def send(self, message: GeneralMessage) -> None:
-        """Send a Command of a MAVLink ground station."""
         line = encode(message.name, message.data, message.id, message.beacon)
         self.link.send(line)
 

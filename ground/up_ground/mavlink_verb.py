@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,6 @@ from up.cli.cli_error import UsageError
 from up.cli.option_parser import whole_number
 from up.cli.verb import add_verb
 from up_ground.settings import Seat
-from up_ground.token_store import TokenStore, state_folder
 from up_mavlink.address import Address, read_address
 from up_mavlink.personas import ARDUPILOT, BY_NAME, PERSONAS
 
@@ -48,7 +46,7 @@ def add_mavlink(verbs: Any) -> None:
 
 def bridge(options: argparse.Namespace) -> int:
     """Run the bridge until it is interrupted."""
-    from up_ground.arguments import settings_of
+    from up_ground.arguments import peer_of
     from up_ground.mavlink_bridge import MAVLinkBridge
     from up_ground.one_shot_task import run
     from up_mavlink.endpoint import Settings
@@ -61,12 +59,9 @@ def bridge(options: argparse.Namespace) -> int:
     key = None if is_plain else read_key(options.signing_key)
     persona = BY_NAME[options.persona]
     served = Settings(address, persona, options.system_id, key, None)
-    settings = settings_of(options, Seat.LISTEN)
-    tokens = TokenStore(state_folder(os.environ), settings)
+    peer = peer_of(options, Seat.LISTEN)
     return run(
-        lambda reactor: MAVLinkBridge(
-            reactor, settings, tokens, served, is_watching=options.watch_only
-        )
+        lambda reactor: MAVLinkBridge(reactor, *peer, served, is_watching=options.watch_only)
     )
 
 

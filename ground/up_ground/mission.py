@@ -20,12 +20,11 @@ from up.mission.plan_forms import MAX_CHARACTERS, read_plan, write_plan
 from up.mission.plan_transfer import PlanOutcome
 from up.mission.reliable_requests import NO_ANSWER
 from up.output import echo
-from up_ground.arguments import settings_of
+from up_ground.arguments import peer_of
 from up_ground.mission_tasks import MissionStatus, StartMission, TransferTask
 from up_ground.one_shot_task import EXIT_NO_ANSWER, print_error
 from up_ground.one_shot_task import run as run_task
 from up_ground.settings import Seat
-from up_ground.token_store import TokenStore, state_folder
 
 _WAYPOINT_SUFFIXES = (".waypoints", ".txt", ".wpl")
 _NOUNS = {MISSION: "item", FENCE: "border"}
@@ -99,12 +98,14 @@ def _clear(options: argparse.Namespace) -> int:
 
 
 def _start(options: argparse.Namespace) -> int:
-    return run_task(lambda reactor: StartMission(reactor, *_peer(options), options.item))
+    return run_task(
+        lambda reactor: StartMission(reactor, *peer_of(options, Seat.COMMAND), options.item)
+    )
 
 
 def _status(options: argparse.Namespace) -> int:
     return run_task(
-        lambda reactor: MissionStatus(reactor, *_peer(options, Seat.LISTEN), options.json)
+        lambda reactor: MissionStatus(reactor, *peer_of(options, Seat.LISTEN), options.json)
     )
 
 
@@ -118,7 +119,7 @@ def _transfer(
     tasks: list[TransferTask] = []
 
     def make(reactor: Any) -> TransferTask:
-        tasks.append(TransferTask(reactor, *_peer(options), plans=plans))
+        tasks.append(TransferTask(reactor, *peer_of(options, Seat.COMMAND), plans=plans))
         return tasks[0]
 
     status = run_task(make)
@@ -171,11 +172,6 @@ def _read(path: Path) -> Plan:
         return read_plan(content.decode(), str(path))
     except UnicodeDecodeError:
         raise UserError(f"{path}: is not text (UTF-8)", "not_text") from None
-
-
-def _peer(options: argparse.Namespace, seat: Seat = Seat.COMMAND) -> tuple[Any, TokenStore]:
-    settings = settings_of(options, seat)
-    return settings, TokenStore(state_folder(os.environ), settings)
 
 
 def _count(items: Sequence[PlanItem], plan: str) -> str:

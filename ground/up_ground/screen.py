@@ -125,11 +125,10 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     screen.put(0, column, f"  {security_text(status)}", Style.HEADER)
     online = flag_text(status.is_aircraft_online, "online", "offline")
     is_silent = telemetry.is_silent(now_s)
-    style = Style.PLAIN
-    if is_silent and telemetry.frames:
-        style = Style.BAD
+    presence = Style.BAD if status.is_aircraft_online is False else Style.PLAIN
+    style = Style.BAD if is_silent and telemetry.frames else Style.PLAIN
     age = age_text(telemetry.age_s(now_s))
-    column = screen.put(1, 1, f"aircraft {online}", _presence_style(status))
+    column = screen.put(1, 1, f"aircraft {online}", presence)
     column = screen.put(1, column + 2, f"{'SILENT ' if is_silent else ''}age {age}", style)
     way = number_text(status.round_trip_ms, 1)
     rate = number_text(telemetry.rate_hz(now_s))
@@ -139,10 +138,6 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
         f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}",
         Style.DIM,
     )
-
-
-def _presence_style(status: LinkStatus) -> Style:
-    return Style.BAD if status.is_aircraft_online is False else Style.PLAIN
 
 
 def _draw_wide(writer: PanelWriter, rows: int) -> None:

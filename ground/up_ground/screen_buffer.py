@@ -97,13 +97,11 @@ class PanelWriter:
         return self.screen.put(row, column, text, Style.DIM if self.is_old(reading) else style)
 
     def title(self, row: int, column: int, text: str, reading: str = "") -> None:
-        """Write a heading with the source and the age of its reading."""
         column = self.screen.put(row, column, text, Style.BOLD)
         if reading:
             self.screen.put(row, column + 1, self.age(reading), self._age_style(reading))
 
     def age(self, reading: str) -> str:
-        """Return the source and the age of a reading."""
         source = self.telemetry.text("source", reading, limit=12)
         age = age_text(self.telemetry.reading_age_s(reading, self.now_s))
         return f"{source} {age}" if source else age

@@ -36,20 +36,16 @@ class TokenStore:
 
     def __init__(self, folder: Path, settings: Settings) -> None:
         name = f"{settings.host}_{settings.port}_{settings.aircraft}"
-        self._path = folder / (_UNSAFE.sub("_", name)[:200] + ".token")
+        self.path = folder / (_UNSAFE.sub("_", name)[:200] + ".token")
         self._lock: PidFile | None = None
-
-    @property
-    def path(self) -> Path:
-        return self._path
 
     def hold(self) -> bool:
         """Reserve the token for this program; False if another one has it or storing fails."""
         if self._lock is not None:
             return True
-        lock = PidFile(self._path.with_suffix(".lock"))
+        lock = PidFile(self.path.with_suffix(".lock"))
         try:
-            self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self.path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
             lock.take()
         except (PidFileHeld, OSError):
             return False
@@ -61,28 +57,27 @@ class TokenStore:
         if self._lock is None:
             return None
         try:
-            text = self._path.read_text(encoding="ascii").strip()
+            text = self.path.read_text(encoding="ascii").strip()
         except (OSError, UnicodeDecodeError):
             return None
         return text if is_token(text) else None
 
     def save(self, token: str) -> None:
-        """Keep a token, readable by this user alone."""
         if self._lock is None:
             return
-        fresh = self._path.with_suffix(f".{secrets.token_hex(4)}")
+        fresh = self.path.with_suffix(f".{secrets.token_hex(4)}")
         # Without a sync, which would block the link: a lost token costs little.
         with contextlib.suppress(OSError):
             descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
             with os.fdopen(descriptor, "w", encoding="ascii") as file:
                 file.write(token + "\n")
-            fresh.replace(self._path)
+            fresh.replace(self.path)
 
     def forget(self) -> None:
         """Drop the token: the seat was given up."""
         if self._lock is not None:
             with contextlib.suppress(OSError):
-                self._path.unlink()
+                self.path.unlink()
 
     def close(self) -> None:
         if self._lock is not None:

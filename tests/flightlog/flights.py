@@ -80,8 +80,6 @@ def status(**fields) -> ArduinoStatusCommand:
 
 
 class FlightMaker(LogMaker):
-    """A log of Commands and of log lines."""
-
     def put(self, time_s: float, command: BaseCommand, origin: Origin = INTERNAL) -> None:
         self.channel(command.NAME, schema_of(type(command)))
         data = command.data
@@ -97,7 +95,6 @@ class FlightMaker(LogMaker):
         self.add(time_s, "log", level=level, name=name, message=text, **coded)
 
     def every(self, begin_s: float, end_s: float, period_s: float, command, origin=BOARD) -> None:
-        """Add a Command, or the result of a function of the time, repeatedly."""
         for number in range(round((end_s - begin_s) / period_s)):
             time_s = begin_s + number * period_s
             made = command(time_s) if callable(command) else command

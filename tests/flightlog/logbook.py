@@ -57,7 +57,6 @@ def write_flight(
     is_finished: bool = True,
     part: int = 1,
 ) -> Path:
-    """Write one file of a flight; return its path."""
     path = FlightFile.first(folder, number, start_unix_s, aircraft).at_part(part).path
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(_content(fill, aircraft, start_unix_s, is_finished))

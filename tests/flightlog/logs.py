@@ -63,7 +63,6 @@ def small_log() -> bytes:
 
 
 def official_messages(data: bytes) -> list[tuple[int, int, int, int, bytes]]:
-    """Return the official reader's messages before the end or the first fault."""
     found: list[tuple[int, int, int, int, bytes]] = []
     try:
         for record in StreamReader(io.BytesIO(data)).records:

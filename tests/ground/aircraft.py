@@ -17,7 +17,6 @@ NAME = "default"
 
 
 def frame(**more):
-    """Return the data of a full telemetry frame."""
     return {
         "orientation": {"roll": 12.5, "pitch": -3.25, "yaw": 271.0},
         "rates": {"roll": 1.0, "pitch": 2.0, "yaw": 3.0},
@@ -109,7 +108,6 @@ class Aircraft:
 
 
 def environment(folder, port, **more):
-    """Return the environment of an up-ground whose state is kept in a folder of the test."""
     return {
         **{key: value for key, value in os.environ.items() if not key.startswith("UP_GROUND_")},
         "XDG_STATE_HOME": str(folder / "state"),
@@ -173,7 +171,6 @@ class Ground:
         self.wait()
 
     def wait(self):
-        """Return the exit status."""
         status = self.process.wait(DEADLINE_S)
         for thread in self._threads:
             thread.join(DEADLINE_S)

@@ -45,13 +45,11 @@ def another_ground(port, access):
 
 @pytest.fixture
 def owner(proxy):
-    """Another ground, which has control."""
     with another_ground(proxy.ground_port, "command") as client:
         yield client
 
 
 @pytest.fixture
 def listener(proxy):
-    """Another ground, without control."""
     with another_ground(proxy.ground_port, "listen") as client:
         yield client

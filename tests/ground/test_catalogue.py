@@ -1,5 +1,3 @@
-"""Which Commands a ground may send."""
-
 import re
 
 import pytest

@@ -1,5 +1,3 @@
-"""`up-ground control`: who has control."""
-
 from tests.ground import aircraft
 from tests.ground.aircraft import Aircraft, Ground, codes, ground
 from tests.proxy.program import Client

@@ -1,5 +1,3 @@
-"""`up-ground foxglove` as a whole: a real proxy, an aircraft, a client that speaks the protocol."""
-
 import json
 import socket
 import struct

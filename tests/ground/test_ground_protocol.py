@@ -1,5 +1,3 @@
-"""One connection on a virtual clock."""
-
 import socket
 
 from twisted.internet.error import ConnectionLost

@@ -1,5 +1,3 @@
-"""`up-ground mavlink`: a MAVLink ground station through the proxy, with the lease of control."""
-
 import contextlib
 
 import pytest

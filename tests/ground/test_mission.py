@@ -1,5 +1,3 @@
-"""`up-ground mission`: real programs, a real proxy, and the store of a real aircraft."""
-
 import json
 
 import pytest

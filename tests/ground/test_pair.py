@@ -1,5 +1,3 @@
-"""``up-ground pair``, and the keys that the other verbs then use."""
-
 import json
 import subprocess
 

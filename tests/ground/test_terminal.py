@@ -1,5 +1,3 @@
-"""The full screen on a real pseudo terminal."""
-
 import fcntl
 import os
 import pty
@@ -21,8 +19,6 @@ ENTER, LEAVE = b"\x1b[?1049h", b"\x1b[?1049l"
 
 
 class Screen:
-    """An up-ground on a pseudo terminal, and its output."""
-
     def __init__(self, folder, port, *arguments):
         self.written = b""
         self.ours, self.theirs = pty.openpty()

@@ -1,5 +1,3 @@
-"""The resume token on disk."""
-
 import stat
 
 from up_ground.settings import Settings

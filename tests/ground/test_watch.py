@@ -1,5 +1,3 @@
-"""`up-ground watch` without a full screen: lines, one picture, JSON."""
-
 import json
 import os
 import signal

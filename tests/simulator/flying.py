@@ -51,7 +51,6 @@ class Flown:
         self.board.write(self.tap.start_bytes())
 
     def fly(self, duration_s):
-        """Fly on; returns the states of this time, one each 20 ms."""
         fresh = []
         for _ in range(round(duration_s / BEAT_S)):
             self.world.advance(BEAT_S)
@@ -63,7 +62,6 @@ class Flown:
         return fresh
 
     def status(self):
-        """Return a status that is new."""
         self.listen()
         self.fly(0.24)
         assert self.world.time_s - self.tap.status_s < 0.24

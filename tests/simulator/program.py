@@ -52,7 +52,6 @@ class Program:
         return found[0]
 
     def end(self, number=signal.SIGTERM):
-        """Send a signal and return status, seconds taken and the error output."""
         started = time.monotonic()
         self.process.send_signal(number)
         status = self.process.wait(DEADLINE_S)
@@ -81,7 +80,6 @@ class Line:
         self.sequence = (self.sequence + 1) % 256
 
     def read(self, timeout_s=0.1):
-        """Return the bytes that are there, waiting for the first."""
         select.select([self.file], [], [], timeout_s)
         try:
             return os.read(self.file, 65536)

@@ -1,6 +1,7 @@
 """Waiting for a condition of another process."""
 
 import time
+from pathlib import Path
 
 DEADLINE_S = 90.0
 HANG_S = 800.0
@@ -18,3 +19,11 @@ def until(condition, what, deadline_s=DEADLINE_S):
             raise AssertionError(f"never came: {what() if callable(what) else what}")
         time.sleep(0.01)
     return value
+
+
+def is_running(pid):
+    """Return whether a process has not ended; a zombie has."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False

@@ -1,5 +1,3 @@
-"""The names that Up may not use."""
-
 from tools.import_contracts import names_in_up
 
 

@@ -41,7 +41,6 @@ class Machine:
         return path.read_text().splitlines() if path.exists() else []
 
     def set_up(self):
-        """Run the tool; returns its status and its output of both streams."""
         done = subprocess.run(
             [self.bin / "sh", NPM_MODULES, self.modules],
             env={"PATH": str(self.bin)},

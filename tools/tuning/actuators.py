@@ -7,9 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from tools.tuning.gain_set import Axis
-from up_rig.imu import Motion
-from up_simulator.aircraft.flight import Dynamics, FlightState
-from up_simulator.harness.world import STEP_S
+from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
 
 Pulses = tuple[float, float, float, float]
 NEUTRAL_US = 1500.0
@@ -53,52 +51,29 @@ class Mix:
         return ailerons, elevator, throttle_us, rudder
 
 
-class Actuators:
-    """Dynamics whose servos get the board's pulses later, larger, or with something added.
+class DisturbedFlight(FlightDynamics):
+    """A flight whose servos get the board's pulses later, larger, or with something added.
 
     ``delay_s`` and ``factors`` (of an axis's deflection) act from now on; ``added_us`` returns the
     pulse to add to an axis at a time. ``on_step`` gets, at each step, the board's pulses and those
     of the servos.
     """
 
-    def __init__(self, dynamics: Dynamics, mix: Mix) -> None:
-        self.dynamics = dynamics
-        self.motor_works = self.is_thrown = True
+    def __init__(
+        self, airframe: Airframe, start: Start, weather: Weather | None, seed: int, mix: Mix
+    ) -> None:
+        super().__init__(airframe, start, weather, seed, model="jsbsim")
         self.factors: dict[Axis, float] = {}
         self.added_axis: Axis | None = None
         self.added_us: Callable[[float], float] = lambda _time_s: 0.0
         self.on_step: Callable[[dict[Axis, float], dict[Axis, float]], None] | None = None
-        self._mix = mix
-        self._steps = 0
-        self._waiting: deque[Pulses] = deque()
         self.delay_s = 0.0
-
-    @property
-    def time_s(self) -> float:
-        return self._steps * STEP_S
-
-    @property
-    def state(self) -> FlightState:
-        return self.dynamics.state
-
-    @property
-    def motion(self) -> Motion:
-        return self.dynamics.motion
-
-    @property
-    def a7_v(self) -> float:
-        return self.dynamics.a7_v
-
-    @property
-    def crash(self) -> str | None:
-        return self.dynamics.crash
-
-    def set_charge(self, percent: float) -> None:
-        self.dynamics.set_charge(percent)
+        self._mix = mix
+        self._waiting: deque[Pulses] = deque()
 
     def set_servos(self, pulses_us: Pulses) -> None:
         self._waiting.append(pulses_us)
-        while len(self._waiting) > round(self.delay_s / STEP_S) + 1:
+        while len(self._waiting) > round(self.delay_s / self.STEP_S) + 1:
             self._waiting.popleft()
         arriving = self._mix.axes(self._waiting[0])
         for axis, factor in self.factors.items():
@@ -106,10 +81,6 @@ class Actuators:
         moved = dict(arriving)
         if self.added_axis is not None:
             moved[self.added_axis] += self.added_us(self.time_s)
-        self.dynamics.set_servos(self._mix.pulses(moved, pulses_us[2]))
+        super().set_servos(self._mix.pulses(moved, pulses_us[2]))
         if self.on_step is not None:
             self.on_step(arriving, moved)
-
-    def advance(self, duration_s: float) -> None:
-        self._steps += 1
-        self.dynamics.advance(duration_s)

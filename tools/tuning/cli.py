@@ -31,13 +31,14 @@ from up.flight_controller.pids_file import PIDS, gain_set_of
 from up.output import StatusLine
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.chart import Mark
+from up_flightlog.plots.overview import overview_png
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError, SettingsError
 from up_simulator.harness.workers import MAX_PROCESSES, Workers
-from up_simulator.picture.flight_picture import draw_flight
+from up_simulator.picture.flight_picture import overview_of
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder
 from up_simulator.verbs.catalogue import HELD, NOT_HELD, verb_parser
@@ -210,9 +211,11 @@ def _look_at_log(options: argparse.Namespace) -> int:
         )
         for step in steps
     ]
-    draw = partial(
-        draw_flight, log, title="Steps of a flight", subtitle=str(options.log), marks=marks
-    )
+
+    def draw(path: Path) -> None:
+        overview = overview_of(log, "Steps of a flight", str(options.log), marks)
+        path.write_bytes(overview_png(overview))
+
     if _is_drawn(draw, path):
         _out(f"picture: {path}")
     return HELD

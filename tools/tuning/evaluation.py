@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tools.tuning.experiments import STEPS, Bench, FlownSteps, fly_steps, measure_loop
+from tools.tuning.experiments import Bench, FlownSteps, measure_loop
 from tools.tuning.gain_set import Axis, AxisGains
 from tools.tuning.margins import LoopPoint, Margins, MarginsError, margins_of, scaled
 from up.commands.gains import Gains, GainSet
@@ -103,22 +103,13 @@ def compensator(gains: AxisGains, frequency_hz: float) -> complex:
     return controller(gains.rate) * (1 + controller(gains.stabilize) / s)
 
 
-def measured_loop(bench: Bench, gains: GainSet, axis: Axis, own: AxisGains, dives: bool) -> Loop:
-    """Fly and return the loop of an axis. Raises ``MarginsError``."""
-    points, airspeed_m_s = measure_loop(bench, gains, axis, dives=dives, periods=3)
-    return Loop(own, tuple(points), airspeed_m_s)
-
-
 def try_loop(bench: Bench, gains: GainSet, axis: Axis, own: AxisGains, dives: bool) -> Loop | str:
-    """Return the loop of an axis, or why it cannot be measured."""
+    """Fly and return the loop of an axis, or why it cannot be measured."""
     try:
-        return measured_loop(bench, gains, axis, own, dives)
+        points, airspeed_m_s = measure_loop(bench, gains, axis, dives=dives, periods=3)
     except MarginsError as error:
         return str(error)
-
-
-def try_steps(bench: Bench, gains: GainSet, axis: Axis) -> FlownSteps:
-    return fly_steps(bench, gains, STEPS[axis])
+    return Loop(own, tuple(points), airspeed_m_s)
 
 
 def worst(margins: Sequence[Margins]) -> Margins:

@@ -144,11 +144,11 @@ def measure_loop(
         moves = [StickMove(0.5, "elevator", stick_us(bench.airframe, "pitch", DIVE_DEG))]
     trial.fly(DIVE_SETTLE_S if dives else SETTLE_S, moves)
     multisine = Multisine()
-    actuators = trial.actuators
-    begin_s = actuators.time_s
-    actuators.delay_s = delay_s
-    actuators.added_axis = axis
-    actuators.added_us = lambda time_s: multisine.at(time_s - begin_s)
+    dynamics = trial.dynamics
+    begin_s = dynamics.time_s
+    dynamics.delay_s = delay_s
+    dynamics.added_axis = axis
+    dynamics.added_us = lambda time_s: multisine.at(time_s - begin_s)
     given: list[float] = []
     moved: list[float] = []
 
@@ -156,10 +156,10 @@ def measure_loop(
         given.append(by_board[axis])
         moved.append(at_servos[axis])
 
-    actuators.on_step = on_step
+    dynamics.on_step = on_step
     recording = trial.fly(multisine.period_s * periods, sample_s=0.1)
-    if trial.dynamics.crash is not None:
-        raise MarginsError(f"the aircraft {trial.dynamics.crash}", "crashed")
+    if dynamics.crash is not None:
+        raise MarginsError(f"the aircraft {dynamics.crash}", "crashed")
     speed_m_s = fmean(recording["truth.airspeed_m_s"])
     return loop_response(given, moved, multisine, STEP_S), speed_m_s
 
@@ -174,20 +174,13 @@ class RoughFlight:
     crash: str | None
 
 
-def fly_rough(
-    bench: Bench,
-    gains: GainSet,
-    turbulence: str = "moderate",
-    seconds: float = 20.0,
-    seeds: Sequence[int] = (1, 2, 3),
-) -> RoughFlight:
-    """Hold level in turbulence, once for each seed of the air."""
+def fly_rough(bench: Bench, gains: GainSet, seconds: float, seeds: Sequence[int]) -> RoughFlight:
+    """Hold level in moderate turbulence, once for each seed of the air."""
     sums = [0.0] * 3
     count = 0
     crash = None
     for seed in seeds:
-        weather = Weather(turbulence=turbulence)  # type: ignore[arg-type]
-        trial = bench.trial(gains, weather, seed)
+        trial = bench.trial(gains, Weather(turbulence="moderate"), seed)
         trial.fly(SETTLE_S)
         recording = trial.fly(seconds)
         crash = crash or recording.crash

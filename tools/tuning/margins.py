@@ -37,7 +37,6 @@ class Multisine:
     )
 
     def at(self, time_s: float) -> float:
-        """Return the excitation at a time, us."""
         turn = 2 * math.pi * time_s / self.period_s
         count = len(self.cycles)
         return self.amplitude_us * sum(
@@ -149,12 +148,6 @@ class Margins:
     """Where the loop hands over from following to not following: its bandwidth."""
     delay_margin_ms: float | None
     peak_sensitivity: float
-
-    @property
-    def is_stable(self) -> bool:
-        """Return whether the loop is stable without changes."""
-        gain, phase = self.gain_margin_db, self.phase_margin_deg
-        return (gain is None or gain > 0) and (phase is None or phase > 0)
 
 
 def margins_of(points: Sequence[LoopPoint]) -> Margins:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from tools.tuning.actuators import Actuators, Mix
+from tools.tuning.actuators import DisturbedFlight, Mix
 from tools.tuning.gain_set import mapping_of
 from up.commands.gains import GainSet
 from up_rig.imu import motion_at
-from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
+from up_simulator.aircraft import Airframe, Start, Weather
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.imu_errors import ImuErrors
@@ -87,9 +87,8 @@ class Trial:
             throttle=throttle,
             **({"pitch_deg": 0.0, "climb_m_s": 0.0} if airframe.has_motor else {}),
         )
-        self.dynamics = FlightDynamics(airframe, start, weather, seed, model="jsbsim")
-        self.actuators = Actuators(self.dynamics, Mix(profile))
-        self.world = World(self.actuators, self.board)
+        self.dynamics = DisturbedFlight(airframe, start, weather, seed, Mix(profile))
+        self.world = World(self.dynamics, self.board)
         self.board.set_stick("throttle", 1000.0)
         self.board.set_stick("aux1", FBW_US)
         self.board.set_stick("aux2", 1000.0)

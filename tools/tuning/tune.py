@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tools.tuning.evaluation import Loop, Rules, try_loop, try_steps, worst
+from tools.tuning.evaluation import Loop, Rules, try_loop, worst
 from tools.tuning.experiments import (
     STEPS,
     Bench,
@@ -181,7 +181,7 @@ def try_rough_air(
     steps = workers.fly(fly_steps, [(bench, proposed, plan, light) for plan in plans])
     seeds = (1,) if is_quick else (1, 2, 3)
     before, after = workers.fly(
-        fly_rough, [(bench, each, "moderate", ROUGH_S, seeds) for each in (was, proposed)]
+        fly_rough, [(bench, each, ROUGH_S, seeds) for each in (was, proposed)]
     )
     return RoughAir(
         tuple((plan.axis, flown) for plan, flown in zip(plans, steps, strict=True)), before, after
@@ -280,7 +280,8 @@ def _fly(
     rules: Rules,
     workers: Workers,
 ) -> list[Candidate]:
-    flown = workers.fly(try_steps, [(bench, with_axis(gains, axis, each), axis) for each in tried])
+    sets = [with_axis(gains, axis, each) for each in tried]
+    flown = workers.fly(fly_steps, [(bench, each, STEPS[axis]) for each in sets])
     candidates = []
     for each, steps in zip(tried, flown, strict=True):
         cruise, dive = _margins(*loops, each)

@@ -74,9 +74,9 @@ def run(values: argparse.Namespace) -> int:
 def lines_of(flights: Sequence[Flight], cache: OverviewCache) -> list[Line]:
     """Return a line for every flight, from the cache where possible."""
     lines = []
-    with Progress("reading flight", len(flights)) as progress:
+    with Progress("reading flight") as progress:
         for number, flight in enumerate(flights, 1):
-            progress.update(number)
+            progress.show(f"{number} of {len(flights)}")
             is_recording = is_being_recorded(flight.paths[-1])
             overview = None if is_recording else cache.get(flight)
             if overview is None:

@@ -47,14 +47,14 @@ def run(values: argparse.Namespace) -> int:
     check_topics(flight, values.field)
     log = FlightLog.read(flight.paths)
     with DecodingProgress("drawing", log):
-        png = _fields(log, values.field) if values.field else _overview(log, flight.name)
+        png = _fields(log, values.field) if values.field else _overview(log)
     write_file(path, png, may_overwrite=values.force)
     echo(f"{path}  {len(png) / 1000:.0f} kB")
     return 0
 
 
-def _overview(log: FlightLog, name: str) -> bytes:
-    content = report_content(log, name)
+def _overview(log: FlightLog) -> bytes:
+    content = report_content(log)
     wanted = [each for each in content.pictures if each.name in ("attitude", "altitude")]
     panels = [panel for picture in wanted for panel in picture.panels]
     if not panels and content.track is None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
 from pathlib import Path
 
 from up.fields import printable
@@ -30,8 +29,8 @@ def run(values: argparse.Namespace) -> int:
     _check_new(folder, may_overwrite=values.force)
     log = FlightLog.read(flight.paths)
     with DecodingProgress("analysing", log):
-        content = report_content(log, flight.name, flight.number)
-    files = write_report(content, folder, may_overwrite=values.force, on_missing=warn)
+        content = report_content(log, flight.number)
+    files = write_report(content, folder, may_overwrite=values.force)
     _, sentence = verdict_of(content.summary, content.findings)
     echo(printable(sentence))
     echo(str(files[0]))
@@ -47,16 +46,10 @@ def default_folder(flight: Flight) -> Path:
     return beside / name if os.access(beside, os.W_OK) else Path(name)
 
 
-def write_report(
-    content: ReportContent,
-    folder: Path,
-    *,
-    may_overwrite: bool,
-    on_missing: Callable[[str], object],
-) -> list[Path]:
+def write_report(content: ReportContent, folder: Path, *, may_overwrite: bool) -> list[Path]:
     """Write page and pictures; return the files, the page first.
 
-    Without matplotlib the page has text, tables and an SVG track, and ``on_missing`` is called.
+    Without matplotlib the page has text, tables and an SVG track, and a warning is shown.
     Raises CliError for an existing file or a failed write, FlightLogError.
     """
     _check_new(folder, may_overwrite=may_overwrite)
@@ -64,14 +57,15 @@ def write_report(
     images: dict[str, ImageSet] = {}
     missing = ""
     try:
-        with Progress("drawing, picture", len(content.pictures) + 1) as progress:
-            progress.update(1)
+        count = len(content.pictures) + 1
+        with Progress("drawing, picture") as progress:
+            progress.show(f"1 of {count}")
             for number, image in enumerate(image_sets(content), 2):
                 images[image.name] = image
-                progress.update(number)
+                progress.show(f"{number} of {count}")
     except PictureError as error:
         missing = f"No pictures: {error}."
-        on_missing(missing)
+        warn(missing)
     page = page_of(content, images, missing).encode()
     files = [folder / PAGE]
     write_file(files[0], page, may_overwrite=may_overwrite)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Self, TextIO
+from typing import Self
 
 from up.output import StatusLine
 from up_flightlog.read.flight_log import FlightLog
@@ -16,21 +16,37 @@ def warn(text: str) -> None:
     print(text, file=sys.stderr)  # noqa: T201 - the user's answer
 
 
-class DecodingProgress:
-    """Shows how many messages of a log were decoded, as ``text, 120000 messages``.
+class Progress:
+    """Shows one line on a terminal once the operation has taken half a second.
 
-    Use it as a context around whatever reads the log; it appears as `Progress` does.
+    Use it as a context: the line is removed at the end. Prints nothing to a file or a pipe.
     """
 
-    def __init__(self, text: str, log: FlightLog, stream: TextIO | None = None) -> None:
+    def __init__(self, text: str) -> None:
         self._text = text
+        self._line = StatusLine(period_s=0.1, delay_s=_DELAY_S)
+
+    def show(self, done: str) -> None:
+        self._line.show(f"{self._text} {done}")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._line.clear()
+
+
+class DecodingProgress(Progress):
+    """Shows how many messages of a log were decoded, as ``text, 120000 messages``."""
+
+    def __init__(self, text: str, log: FlightLog) -> None:
+        super().__init__(f"{text},")
         self._log = log
         self._count = 0
-        self._line = StatusLine(stream, period_s=0.1, delay_s=_DELAY_S)
 
     def _on_decoded(self, count: int) -> None:
         self._count += count
-        self._line.show(f"{self._text}, {self._count} messages")
+        self.show(f"{self._count} messages")
 
     def __enter__(self) -> Self:
         self._log.on_decoded = self._on_decoded
@@ -38,26 +54,4 @@ class DecodingProgress:
 
     def __exit__(self, *error: object) -> None:
         self._log.on_decoded = None
-        self._line.clear()
-
-
-class Progress:
-    """Shows ``text 12 of 300`` on a terminal once the operation has taken half a second.
-
-    Use it as a context: the line is removed at the end. Prints nothing to a file or a pipe.
-    """
-
-    def __init__(self, text: str, count: int, stream: TextIO | None = None) -> None:
-        self._text = text
-        self._count = count
-        self._line = StatusLine(stream, period_s=0.1, delay_s=_DELAY_S)
-
-    def update(self, number: int) -> None:
-        """Report the current item; the first is 1."""
-        self._line.show(f"{self._text} {number} of {self._count}")
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self._line.clear()
+        super().__exit__(*error)

@@ -161,7 +161,6 @@ def _flatten(data: Mapping[str, Any], keys: list[object], values: list[Any]) -> 
 
 
 def _text(value: Any) -> str:
-    """Return the CSV text of any value."""
     return _text_of(value) if type(value) is str else _quoted(cell(value))
 
 

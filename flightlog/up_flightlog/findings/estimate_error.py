@@ -40,12 +40,10 @@ def estimate_errors(
 def _errors_deg(estimate: Series, truth: Series) -> Series:
     """Return the difference between each estimate and the truth within ``_APART_S`` of its time."""
     found = Series()
-    around = [
-        truth.each_at([time_s + apart_s for time_s in estimate.times_s], 0.5)
-        for apart_s in (-_APART_S, 0.0, _APART_S)
-    ]
-    rows = zip(estimate.times_s, estimate.values, *around, strict=True)
-    for time_s, value, before, now, after in rows:
+    for time_s, value in zip(estimate.times_s, estimate.values, strict=True):
+        before = truth.at(time_s - _APART_S)
+        now = truth.at(time_s)
+        after = truth.at(time_s + _APART_S)
         if before is None or now is None or after is None:
             continue
         off = (turn(value - before), turn(value - now), turn(value - after))

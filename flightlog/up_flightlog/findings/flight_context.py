@@ -142,12 +142,10 @@ class FlightContext:
 
     @cached_property
     def attitude(self) -> dict[str, Series]:
-        """Return the angles of the followed source, deg."""
         return from_selected_source(self.log, "orientation", ORIENTATION, ANGLES)
 
     @cached_property
     def altitude(self) -> Series:
-        """Return the measured altitude of the followed source, m."""
         found = from_selected_source(self.log, "altitude", ALTITUDE, ("altitude",))
         return found["altitude"]
 
@@ -184,7 +182,6 @@ class FlightContext:
         return {}
 
     def spans(self, states: Iterable[tuple[float, bool]]) -> list[Span]:
-        """Return the spans in which a condition held, up to the end of the log."""
         return spans_of(states, self.log.length_s)
 
     def was_armed(self, span: Span) -> bool:

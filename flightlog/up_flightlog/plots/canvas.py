@@ -68,7 +68,6 @@ class Sheet:
         self._figure.text(x, y, words, va="top", ha="left", **options)
 
     def text_width(self, words: str, size: float) -> float:
-        """Return the width of a text, inches."""
         text = self._figure.text(0, 0, words, size=size)
         extent = text.get_window_extent(renderer=self._figure.canvas.get_renderer())  # type: ignore[attr-defined]
         text.remove()

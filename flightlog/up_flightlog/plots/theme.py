@@ -13,7 +13,6 @@ from dataclasses import dataclass
 class Theme:
     """The colours of a picture; the report's page has the same background and text colours."""
 
-    name: str
     paper: str
     ink: str
     muted: str
@@ -32,7 +31,6 @@ class Theme:
 
 
 DAYLIGHT = Theme(
-    name="daylight",
     paper="#ffffff",
     ink="#1b2026",
     muted="#5b646e",
@@ -56,7 +54,6 @@ DAYLIGHT = Theme(
     other_band="#dfecf8",
 )
 DARK = Theme(
-    name="dark",
     paper="#12161b",
     ink="#e8ebee",
     muted="#9aa4ae",

@@ -111,7 +111,6 @@ def _index_at(path: Path, known: Sequence[int], time_s: float) -> int:
 
 
 def _dots(axes: Axes, view: TrackView, sheet: Sheet) -> None:
-    """Mark round times along the track."""
     path = view.path
     known = _known(path)
     begin_s, end_s = path.times_s[known[0]], path.times_s[known[-1]]

@@ -29,8 +29,6 @@ _KEPT = frozenset({Opcode.SCHEMA, Opcode.CHANNEL, Opcode.METADATA, Opcode.ATTACH
 class Attachment:
     """A file attached to the flight, read on demand."""
 
-    name: str
-    media_type: str
     size: int
     path: Path
     offset: int
@@ -200,7 +198,5 @@ class PartReader:
 
     def _attach(self, found: AttachedFile) -> None:
         if len(self.attachments) < MAX_ATTACHMENTS:
-            attachment = Attachment(
-                found.name, found.media_type, found.size, self.path, found.offset
-            )
+            attachment = Attachment(found.size, self.path, found.offset)
             self.attachments.setdefault(found.name, attachment)

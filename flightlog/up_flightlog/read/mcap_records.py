@@ -20,8 +20,6 @@ class Schema:
     """The layout of a channel's messages."""
 
     id: int
-    name: str
-    encoding: str
     data: bytes
 
 
@@ -41,7 +39,6 @@ class AttachedFile:
     """An attached file and the position of its ``size`` bytes."""
 
     name: str
-    media_type: str
     offset: int
     size: int
 
@@ -96,8 +93,8 @@ def read_record(opcode: int, offset: int, content: bytes, problems: Problems) ->
     fields = Fields(content)
     try:
         if opcode == Opcode.SCHEMA:
-            name = (fields.number(U16), fields.text(), fields.text())
-            return Schema(*name, fields.read(fields.number(U32)))
+            number, _name, _encoding = fields.number(U16), fields.text(), fields.text()
+            return Schema(number, fields.read(fields.number(U32)))
         if opcode == Opcode.CHANNEL:
             number, schema = CHANNEL.unpack(fields.read(CHANNEL.size))
             return Channel(number, schema, fields.text(), fields.text(), fields.map())
@@ -112,7 +109,7 @@ def read_record(opcode: int, offset: int, content: bytes, problems: Problems) ->
 
 def _attachment(fields: Fields, offset: int, content: bytes, problems: Problems) -> AttachedFile:
     fields.read(ATTACHMENT.size)
-    name, media_type, size = fields.text(), fields.text(), fields.number(U64)
+    name, _media_type, size = fields.text(), fields.text(), fields.number(U64)
     begin = fields.at
     fields.read(size)
     checked = fields.at
@@ -120,4 +117,4 @@ def _attachment(fields: Fields, offset: int, content: bytes, problems: Problems)
     if checksum and checksum != crc32(memoryview(content)[:checked]):
         text = "an attachment does not match its checksum: it is damaged"
         problems.add("attachment_checksum", text, offset)
-    return AttachedFile(name, media_type, offset + begin, size)
+    return AttachedFile(name, offset + begin, size)

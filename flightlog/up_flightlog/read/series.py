@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from array import array
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import itemgetter
 from typing import Any
@@ -35,41 +35,18 @@ class Series:
             self.times_s.append(time_s)
             self.values.append(value)
 
-    def at(self, time_s: float, within_s: float) -> float | None:
-        """Interpolate the value at a time; None if its neighbours are too far apart."""
+    def at(self, time_s: float) -> float | None:
+        """Interpolate the value at a time; None if its neighbours are over 0.5 s apart."""
         after = bisect_left(self.times_s, time_s)
         if after < len(self.times_s) and self.times_s[after] == time_s:
             return self.values[after]
         if not 0 < after < len(self.times_s):
             return None
         low_s, high_s = self.times_s[after - 1], self.times_s[after]
-        if high_s - low_s > within_s:
+        if high_s - low_s > 0.5:
             return None
         low, high = self.values[after - 1], self.values[after]
         return low + (high - low) * (time_s - low_s) / (high_s - low_s)
-
-    def each_at(self, times_s: Iterable[float], within_s: float) -> list[float | None]:
-        """Return `at` of each of the times, which rise: in one walk along the series."""
-        known_s, values = self.times_s, self.values
-        last = len(known_s) - 1
-        if last < 0:
-            return [None for _ in times_s]
-        found: list[float | None] = []
-        after = 0
-        for time_s in times_s:
-            while after < last and known_s[after] < time_s:
-                after += 1
-            if known_s[after] == time_s:
-                found.append(values[after])
-            elif after > 0 and known_s[after - 1] < time_s < known_s[after]:
-                low_s, high_s = known_s[after - 1], known_s[after]
-                low = values[after - 1]
-                share = (time_s - low_s) / (high_s - low_s)
-                is_near = high_s - low_s <= within_s
-                found.append(low + (values[after] - low) * share if is_near else None)
-            else:
-                found.append(self.at(time_s, within_s))
-        return found
 
 
 class Columns:
@@ -83,7 +60,6 @@ class Columns:
             self._groups.setdefault(tuple(group), []).append((key, series))
 
     def add_all(self, times_s: Sequence[float], messages: Sequence[Mapping[str, Any]]) -> None:
-        """Add the messages of these times."""
         times = array("d", times_s)
         for group, fields in self._groups.items():
             inner = [value_at(each, group) for each in messages] if group else messages
@@ -130,8 +106,8 @@ def error_of(
 ) -> tuple[Series, ErrorFigures | None]:
     """Return measured minus true values, where both are known, and their statistics."""
     error = Series()
-    true_values = truth.each_at(series.times_s, within_s=0.5)
-    for time_s, value, true in zip(series.times_s, series.values, true_values, strict=True):
+    for time_s, value in zip(series.times_s, series.values, strict=True):
+        true = truth.at(time_s)
         if true is not None:
             error.add(time_s, turn(value - true) if is_angle else value - true)
     if not error:

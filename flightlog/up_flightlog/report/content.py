@@ -19,9 +19,8 @@ _MAX_MARKS = 60
 
 @dataclass(frozen=True, slots=True)
 class ReportContent:
-    """The content of a flight; ``name`` is the base name of its files."""
+    """The content of a flight."""
 
-    name: str
     number: int | None
     log: FlightLog
     summary: FlightSummary
@@ -33,7 +32,7 @@ class ReportContent:
     background: Background
 
 
-def report_content(log: FlightLog, name: str, number: int | None = None) -> ReportContent:
+def report_content(log: FlightLog, number: int | None = None) -> ReportContent:
     """Analyse a flight; raises FlightLogError when a file can no longer be read."""
     context = FlightContext(log)
     summary, found = summarise(log, context), findings(log, context)
@@ -41,7 +40,6 @@ def report_content(log: FlightLog, name: str, number: int | None = None) -> Repo
     marks = [Mark(each.time_s, is_bad=True) for each in found if each.level == "alarm"]
     marks += [Mark(each.time_s) for each in summary.marks]
     return ReportContent(
-        name=name,
         number=number,
         log=log,
         summary=summary,

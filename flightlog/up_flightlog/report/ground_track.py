@@ -52,7 +52,7 @@ def place_error_m(data: ReportData) -> Series:
         return found
     for point in points_of(data.log):
         time_s = point.unix_s - data.log.start_unix_s
-        true = latitude.at(time_s, 0.5), longitude.at(time_s, 0.5)
+        true = latitude.at(time_s), longitude.at(time_s)
         if true[0] is not None and true[1] is not None:
             found.add(time_s, distance_m(point.latitude_deg, point.longitude_deg, true[0], true[1]))
     return found

@@ -140,7 +140,7 @@ def _from_frames(log: FlightLog) -> tuple[dict[str, Series], Series]:
 def _silences(log: FlightLog) -> dict[str, Series]:
     """Return the length of the silence around each moment: of board, phone and ground."""
     found = {}
-    positions = first_link(log, LOCATION)
+    positions = first_link(log)
     phone = "phone" if positions in ("", "android") else f"positions ({positions})"
     for name, topics in (("board", BOARD_TOPICS), (phone, PHONE_TOPICS)):
         times_s = sorted(
@@ -154,9 +154,9 @@ def _silences(log: FlightLog) -> dict[str, Series]:
     return found
 
 
-def first_link(log: FlightLog, topic: str) -> str:
-    """Return the link of a topic's first message; empty without one."""
-    return next((link_and_role(data.get(KEY))[0] for _, data in _messages(log, topic)), "")
+def first_link(log: FlightLog) -> str:
+    """Return the link of the first position; empty without one."""
+    return next((link_and_role(data.get(KEY))[0] for _, data in _messages(log, LOCATION)), "")
 
 
 def _silence(times_s: list[float], end_s: float) -> Series:
@@ -173,7 +173,6 @@ def _silence(times_s: list[float], end_s: float) -> Series:
 
 
 def _ground_away(log: FlightLog) -> Series:
-    """Return the length of each period without a ground station."""
     series = Series()
     connected: dict[str, bool] = {}
     since_s: float | None = None

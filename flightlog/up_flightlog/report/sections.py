@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
 from up_flightlog.read.series import error_of
 from up_flightlog.read.spans import duration_text
@@ -15,7 +14,7 @@ from up_flightlog.report.formatting import clock_text
 from up_flightlog.report.gains import GainSet, changes, gain_sets, requested_sets
 from up_flightlog.report.ground_track import place_error_m
 from up_flightlog.report.html_text import Markup, join, table, tag
-from up_flightlog.report.report_data import LOCATION, first_link
+from up_flightlog.report.report_data import first_link
 
 _NAMES = {"alarm": "alarm", "warning": "warning", "info": "note"}
 
@@ -90,7 +89,7 @@ def truth(content: ReportContent) -> Markup | None:
     data = content.data
     rows = []
     # Without measured positions the log has the true ones, marked as such.
-    has_source = first_link(content.log, LOCATION) != "simulator"
+    has_source = first_link(content.log) != "simulator"
     for each in content.summary.estimate_errors:
         rows.append([each.axis, f"{each.rms_deg:.2f} deg", f"{each.worst_deg:.2f} deg"])
     _, found = error_of(data.altitude, data.truth["altitude_m"], is_angle=False)
@@ -120,9 +119,7 @@ def gains(content: ReportContent) -> Markup | None:
         parts.append(tag("h3", _changed(sets[0], verb)))
     parts.append(_gain_table(sets[0]))
     for before, after in pairwise(sets):
-        rows = [
-            [_gain_name(key), _gain(old), _gain(new)] for key, old, new in changes(before, after)
-        ]
+        rows = [[" ".join(key), _gain(old), _gain(new)] for key, old, new in changes(before, after)]
         parts.append(tag("h3", _changed(after, verb)))
         parts.append(table(["gain", "before", "after"], rows, right=(1, 2)))
     return join(*parts)
@@ -162,10 +159,6 @@ def _gain_table(gains: GainSet) -> Markup:
         ],
         right=(2, 3, 4),
     )
-
-
-def _gain_name(key: Key) -> str:
-    return " ".join(key)
 
 
 def _gain(value: float | None) -> str:

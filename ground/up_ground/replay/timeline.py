@@ -50,11 +50,6 @@ def gains_of(log: FlightLog) -> list[Reported]:
     return [Reported(time_s, gains) for time_s, gains in wanted if isinstance(gains, dict)]
 
 
-def profile_of(log: FlightLog) -> list[Reported]:
-    """Return the reported profiles of the airframe; raises FlightLogError likewise."""
-    return _reports(log, PROFILE)
-
-
 def _reports(log: FlightLog, topic: str) -> list[Reported]:
     return [
         Reported(each.time_s, {key: value for key, value in each.data.items() if key[:1] != "_"})
@@ -81,7 +76,7 @@ class ReplayTimeline:
         self._home = Home()
         self._frame_times_s = array("d")
         self._gains = gains_of(log)
-        self._profiles = profile_of(log)
+        self._profiles = _reports(log, PROFILE)
         self._now_s = 0.0
         # A user who stops at a moment wants to see the alarms of that moment.
         self._monitor = EventMonitor(aircraft, self._record, hold_s=0.0)

@@ -55,7 +55,6 @@ class Access:
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
     def is_key(self, key: str) -> bool:
-        """Return whether this is the key."""
         given = key.encode("utf-8", "replace")
         return self.key is not None and hmac.compare_digest(given, self.key.encode())
 

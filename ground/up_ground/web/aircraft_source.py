@@ -35,7 +35,6 @@ class AircraftSource(ABC):
     def status(self, page: ClientSession) -> dict[str, Any]: ...
 
     def row(self, now_s: float) -> dict[str, Any]:
-        """Return the aircraft's row of the message `fleet`."""
         return {"name": self.name}
 
     @abstractmethod

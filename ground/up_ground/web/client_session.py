@@ -99,10 +99,6 @@ class PageSendBuffer(BaseOutput):
         super().__init__()
         self._on_overrun = on_overrun
 
-    @property
-    def waiting_bytes(self) -> int:
-        return self._size
-
     def send(self, message: bytes) -> None:
         if self._transport is None:
             return
@@ -150,7 +146,6 @@ class ClientSession:
         return self.denial is None
 
     def send(self, message: dict[str, Any]) -> None:
-        """Send a message in order; lost while the page is disconnected."""
         self.send_bytes(message_bytes(message))
 
     def send_bytes(self, message: bytes) -> None:

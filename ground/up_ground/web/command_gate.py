@@ -94,7 +94,6 @@ class CommandGate:
         return unsent
 
     def unsent(self) -> Answer | None:
-        """Return why no Command can leave now."""
         status = self._link.status
         if not status.is_open:
             return Answer("unsent", "no_link", status.reason or "no link to the proxy")

@@ -97,7 +97,6 @@ class Control:
         self._on_change()
 
     def release(self, page: ClientSession) -> None:
-        """Release control, to the first request or free; or withdraw the own request."""
         if page is self.holder:
             self._free()
         elif page is self._wanting:

@@ -157,7 +157,6 @@ class EventMonitor:
         self._number = 0
 
     def alarm_rows(self) -> list[dict[str, str]]:
-        """Return the active alarms, as in the message `alarms`."""
         return self._alarms.rows()
 
     def report(self, kind: str, report: Report | None, now_s: float) -> None:

@@ -81,7 +81,6 @@ class PageResource(Resource):
         return self.get(request)
 
     def get(self, request: Any) -> Any:
-        """Answer GET and HEAD."""
         return self.file(request, request.path)
 
     def file(self, request: Any, path: bytes) -> bytes:

@@ -83,7 +83,6 @@ class TileCache:
             self._thin(self._sizes)
 
     def _thin(self, sizes: OrderedDict[Tile, int]) -> None:
-        """Delete the least recently used tiles."""
         while sizes and (self._bytes > self._limit or len(sizes) > self._tiles_limit):
             tile, size = sizes.popitem(last=False)
             self._bytes -= size

@@ -130,15 +130,11 @@ class TileSource:
         self._busy.pop(tile, None)
         for request in self._requests.pop(tile, []):
             if content is None:
-                _finish_refused(request)
+                text = "the map's source returned no tile"
+                finish(request, refuse(request, http.BAD_GATEWAY, text))
             else:
                 finish(request, _answer(request, content))
         self._fetch_next()
-
-
-def _finish_refused(request: Any) -> None:
-    """Answer that the source failed."""
-    finish(request, refuse(request, http.BAD_GATEWAY, "the map's source returned no tile"))
 
 
 class _Body(Protocol):

@@ -24,13 +24,12 @@ from up_simulator.aircraft.airframe_file import (
     file_named,
 )
 from up_simulator.aircraft.flight import FlightUnavailableError
-from up_simulator.aircraft.geometry import GEOMETRY, Geometry, ModelError
+from up_simulator.aircraft.geometry import GEOMETRY, ModelError
 from up_simulator.aircraft.model_check import MOTOR, ModelRefusedError, check_model
 
 _OUTPUTS = ("ailerons", "elevator", "rudder")
 SHIPPED = Path(__file__).parent / "airframes"
 DEFAULT_AIRFRAME = "glider"
-_LB_KG, _SLUG_KG = 0.45359237, 14.593903
 
 
 class AirframeError(Exception):
@@ -57,10 +56,8 @@ class Airframe:
 
     name: str
     title: str
-    about: str
     folder: Path
     model: str
-    mass_kg: float
     launch: LaunchConfig
     servos: ServosConfig
     motor: MotorConfig
@@ -109,14 +106,15 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         raise AirframeError("invalid_file", str(errors)) from None
     if not file.title:
         raise AirframeError("missing_key", f"{path}:1:1: title: the key is missing")
-    mass_kg = _mass_of(path.parent / file.model) if file.model else _built_mass_of(path.parent)
+    if file.model:
+        _check_model(path.parent / file.model)
+    else:
+        _check_geometry(path.parent)
     airframe = Airframe(
         name=path.parent.resolve().name,
         title=file.title,
-        about=file.about,
         folder=path.parent,
         model=file.model,
-        mass_kg=mass_kg,
         launch=file.launch,
         servos=file.servos,
         motor=file.motor,
@@ -157,21 +155,18 @@ def without_nulls(values: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in kept.items() if value is not None and value != {}}
 
 
-def _built_mass_of(folder: Path) -> float:
-    """Return the mass that geometry.yml has, kg. Raises ``AirframeError``."""
+def _check_geometry(folder: Path) -> None:
     if not (folder / GEOMETRY.filename).is_file():
         place = f"{folder / FILENAME}:1:1"
         what = f"model: the key is missing, and no {GEOMETRY.filename} is beside the file"
         raise AirframeError("missing_key", f"{place}: {what}")
     try:
-        geometry: Geometry = GEOMETRY.load(folder)
+        GEOMETRY.load(folder)
     except ConfigErrors as errors:
         raise AirframeError("invalid_geometry", str(errors)) from None
-    return geometry.masses.mass_kg
 
 
-def _mass_of(model_path: Path) -> float:
-    """Return the model's mass, kg. Raises ``AirframeError`` for a file that is not a model."""
+def _check_model(model_path: Path) -> None:
     try:
         root = ElementTree.parse(model_path).getroot()
     except OSError as error:
@@ -185,15 +180,13 @@ def _mass_of(model_path: Path) -> float:
     if root.tag != "fdm_config" or weight is None:
         what = f"{model_path}:1:1: is not a JSBSim model with a mass_balance/emptywt"
         raise AirframeError("not_a_model", what)
-    unit = {"KG": 1.0, "SLUG": _SLUG_KG}.get(weight.get("unit", "LBS").upper(), _LB_KG)
     try:
-        mass_kg = float(weight.text or "") * unit
+        mass = float(weight.text or "")
     except ValueError:
-        mass_kg = 0.0
-    if not 0.0 < mass_kg < math.inf:
+        mass = 0.0
+    if not 0.0 < mass < math.inf:
         what = f"{model_path}: emptywt: is not a mass: {weight.text}"
         raise AirframeError("invalid_mass", what)
-    return mass_kg
 
 
 def _check(path: Path, airframe: Airframe) -> None:
@@ -226,7 +219,6 @@ def _check(path: Path, airframe: Airframe) -> None:
 
 
 def _position_of(path: Path, *keys: str) -> tuple[int, int]:
-    """Return line and column of a key in a valid file."""
     node = compose(path.read_text(encoding="utf-8-sig"), lambda *_problem: None)
     place = (1, 1)
     for name in keys:

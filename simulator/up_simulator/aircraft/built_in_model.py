@@ -273,7 +273,6 @@ _Axes = tuple[_Vector, _Vector, _Vector]
 
 
 def _attitude_of(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
-    """Return the quaternion of the body's attitude."""
     (sr, cr), (sp, cp), (sy, cy) = (
         (math.sin(each / 2), math.cos(each / 2)) for each in (roll, pitch, yaw)
     )

@@ -8,7 +8,7 @@ function states its assumptions.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from up_simulator.aircraft.geometry import Geometry
@@ -33,21 +33,11 @@ BETAS_DEG = tuple(
 _STEP = 0.01
 _PLATE_NORMAL = 1.25
 _DRAG_OF_LIFT = 0.008
-_DRAG_OF_DEFLECTION = 0.15
+DRAG_OF_DEFLECTION = 0.15
+"""Of a surface, by the square of the deflection, per square radian."""
 _FIN_STALL_DEG = 16.0
 _TAIL_STALL_DEG = 24.0
 _CROSSFLOW_DRAG = 0.8
-
-
-@dataclass(frozen=True, slots=True)
-class Derivatives:
-    """How the loads change with one thing: per radian, or per unit of a rate made pure."""
-
-    lift: float
-    side: float
-    roll: float
-    pitch: float
-    yaw: float
 
 
 class Derivation:
@@ -59,7 +49,7 @@ class Derivation:
         self.aspect = self.span_m**2 / self.area_m2
         self._lattice = lattice_of(geometry)
         self._loads: dict[float, Loads] = {}
-        self._derivatives: dict[tuple[str, float], Derivatives] = {}
+        self._derivatives: dict[tuple[str, float], Loads] = {}
 
     def loads(self, alpha_deg: float) -> Loads:
         """Return the loads of attached flow without sideslip, rates and deflections."""
@@ -68,13 +58,16 @@ class Derivation:
             self._loads[alpha_deg] = self._lattice.loads(flow)
         return self._loads[alpha_deg]
 
-    def by(self, what: str, alpha_deg: float = 0.0) -> Derivatives:
-        """Return the derivatives by ``alpha_rad``, ``beta_rad``, a rate or a control's name."""
+    def by(self, what: str, alpha_deg: float = 0.0) -> Loads:
+        """Return the derivatives by ``alpha_rad``, ``beta_rad``, a rate or a control's name.
+
+        They are per radian, or per unit of a rate made pure.
+        """
         if (what, alpha_deg) not in self._derivatives:
             self._derivatives[what, alpha_deg] = self._differentiate(what, alpha_deg)
         return self._derivatives[what, alpha_deg]
 
-    def _differentiate(self, what: str, alpha_deg: float) -> Derivatives:
+    def _differentiate(self, what: str, alpha_deg: float) -> Loads:
         alpha = math.radians(alpha_deg)
         sides = []
         for step in (_STEP, -_STEP):
@@ -87,7 +80,7 @@ class Derivation:
                 flow = replace(flow, **{what: step})  # type: ignore[arg-type]
             sides.append(self._lattice.loads(flow))
         above, below = sides
-        return Derivatives(
+        return Loads(
             *(
                 float(getattr(above, name) - getattr(below, name)) / (2 * _STEP)
                 for name in ("lift", "side", "roll", "pitch", "yaw")
@@ -107,13 +100,11 @@ class Derivation:
         return 1.0 - (1 + above + below) / ((1 + above) * (1 + below))
 
     def lift(self, alpha_deg: float) -> float:
-        """Return the lift coefficient without deflections."""
         share = self.attached(alpha_deg)
         plate = plate_normal(alpha_deg) * math.cos(math.radians(alpha_deg))
         return share * self._attached_lift(alpha_deg) + (1 - share) * plate
 
     def drag(self, alpha_deg: float) -> float:
-        """Return the drag coefficient without deflections and sideslip."""
         share = self.attached(alpha_deg)
         lift = self._attached_lift(alpha_deg)
         attached = (
@@ -144,7 +135,6 @@ class Derivation:
 
     @cached_property
     def parasite_drag(self) -> float:
-        """Return the drag coefficient at no lift: sections, fuselage, gaps."""
         geometry = self.geometry
         fins = 2 if geometry.tip_fins else 1
         drag = geometry.wing.profile_drag * self.area_m2
@@ -231,11 +221,6 @@ class Derivation:
         left = share + (1 - share) * 0.35 * abs(math.cos(math.radians(alpha_deg)))
         found = self.by("elevator")
         return found.lift * left, found.pitch * left
-
-    @property
-    def deflection_drag(self) -> float:
-        """Return the drag by the square of a deflection, per square radian."""
-        return _DRAG_OF_DEFLECTION
 
     @cached_property
     def crossflow_drag(self) -> float:

@@ -59,7 +59,7 @@ _READ = {
 
 
 class FlightDynamics:
-    """A flight in steps of 2 ms, launched in the air or thrown; satisfies ``FlightSource``.
+    """A flight in steps of 2 ms, launched in the air or thrown.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
@@ -84,7 +84,9 @@ class FlightDynamics:
         self.weather = weather or Weather()
         self.crash: str | None = None
         self.motor_works = True
+        """Whether the motor gives thrust; it may change in flight, and nothing reports it."""
         self.is_thrown = False
+        """Set to True it throws an aircraft that a hand holds."""
         self.is_landed = False
         self._may_land = may_land
         self._run: GroundRun | None = None
@@ -126,6 +128,7 @@ class FlightDynamics:
 
     @property
     def a7_v(self) -> float:
+        """Return the voltage that the flight battery's divider gives to the board's pin A7."""
         return self._battery.voltage_v * self.airframe.battery.divider
 
     @property
@@ -188,7 +191,6 @@ class FlightDynamics:
         self._battery.charge()
 
     def set_charge(self, percent: float) -> None:
-        """Set the charge of the flight battery."""
         self._battery.charge(percent)
 
     def launch(self, start: Start) -> None:

@@ -3,12 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
-
-from up_rig.imu import Motion
-
-if TYPE_CHECKING:
-    from up_simulator.aircraft.start import Start
 
 Servos = tuple[int, int, int, int]
 """Servo pulses, us: ailerons, elevator, throttle, rudder."""
@@ -59,62 +53,3 @@ class FlightState:
     wind_north_m_s: float = 0.0
     wind_east_m_s: float = 0.0
     wind_down_m_s: float = 0.0
-
-
-class Dynamics(Protocol):
-    """The flight as a board moves and feels it; it advances in steps of its simulated time."""
-
-    motor_works: bool
-    """Whether the motor gives thrust; it may change in flight, and nothing reports it."""
-    is_thrown: bool
-    """Set to True it throws an aircraft that a hand holds."""
-
-    @property
-    def state(self) -> FlightState:
-        """Return the newest state."""
-
-    @property
-    def motion(self) -> Motion:
-        """Return the present motion for an IMU aboard."""
-
-    @property
-    def a7_v(self) -> float:
-        """Return the voltage that the flight battery's divider gives to the board's pin A7."""
-
-    @property
-    def crash(self) -> str | None:
-        """Return one sentence about the crash; None while it flies. After it the aircraft rests."""
-
-    def set_charge(self, percent: float) -> None:
-        """Set the charge of the flight battery."""
-
-    def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Command the servos to these pulses."""
-
-    def advance(self, duration_s: float) -> None:
-        """Run all whole steps of the time requested so far."""
-
-
-class FlightSource(Dynamics, Protocol):
-    """A flight that can be repeated."""
-
-    @property
-    def servos(self) -> Servos:
-        """Return the present servo positions, us, which lag behind the commanded ones."""
-
-    @property
-    def is_landed(self) -> bool:
-        """Return whether it has touched down; it then slides and rests."""
-
-    def change_battery(self) -> None:
-        """Put a full battery in."""
-
-    def launch(self, start: Start) -> None:
-        """Put it back into the air."""
-
-
-class Clock(Protocol):
-    """A clock that only rises, such as a reactor's or a test's."""
-
-    def seconds(self) -> float:
-        """Return seconds since an arbitrary moment."""

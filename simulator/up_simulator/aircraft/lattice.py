@@ -92,7 +92,6 @@ class Lattice:
         self._at_bounds = _influences(self._middle, self._left, self._right, bound=False)
 
     def loads(self, flow: Flow) -> Loads:
-        """Return the forces and moments of the flow on the aircraft."""
         normals = np.array([_normal(each, flow.controls) for each in self._panels])
         stream = self._stream(flow, self._points)
         matrix = np.einsum("ijk,ik->ij", self._at_points, normals)

@@ -12,7 +12,12 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from up.config import ConfigErrors
-from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation
+from up_simulator.aircraft.derivation import (
+    ALPHAS_DEG,
+    BETAS_DEG,
+    DRAG_OF_DEFLECTION,
+    Derivation,
+)
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.geometry import GEOMETRY, ModelError
 from up_simulator.aircraft.glide import describe
@@ -140,8 +145,8 @@ def _aerodynamics(derivation: Derivation) -> str:
         '  <axis name="DRAG">',
         _force("drag", cosine_squared, alpha(derivation.drag)),
         _force("drag-sideslip", sine_beta, sine_beta, _value(derivation.crossflow_drag)),
-        _force("drag-elevator", elevator, elevator, _value(derivation.deflection_drag)),
-        _force("drag-ailerons", ailerons, ailerons, _value(derivation.deflection_drag)),
+        _force("drag-elevator", elevator, elevator, _value(DRAG_OF_DEFLECTION)),
+        _force("drag-ailerons", ailerons, ailerons, _value(DRAG_OF_DEFLECTION)),
         "  </axis>",
         '  <axis name="SIDE">',
         _force("side", _table("aero/beta-deg", BETAS_DEG, derivation.side)),

@@ -28,7 +28,6 @@ class Battery:
 
     @property
     def open_v(self) -> float:
-        """Return the volts without current."""
         share = self._left_c / self._capacity_c
         for (low, low_v), (high, high_v) in _CELL_PARTS:
             if share <= high:

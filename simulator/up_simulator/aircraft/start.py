@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from up.config import key
 from up_simulator.aircraft.airframe_file import LaunchConfig
 from up_simulator.aircraft.model import FOOT_M, FlightModel
 from up_simulator.aircraft.weather import Weather
@@ -16,25 +17,50 @@ START_LONGITUDE_DEG = 14.5
 MERIDIAN_M, PARALLEL_M = 6_373_326.0, 4_108_102.0
 
 
-@dataclass(frozen=True, slots=True)
-class Start:
-    """Initial conditions of a flight; None means the airframe's default.
+def _rate(comment: str) -> float:
+    return key(0.0, comment, unit="deg/s", minimum=-720, maximum=720)
 
-    ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is the motor's throttle
-    before the start. ``throw_m_s``: a hand holds the aircraft until it is thrown, so fast over the
-    ground; the airspeed is then that speed and the headwind.
+
+@dataclass(frozen=True, slots=True)
+class StartPart:
+    """Initial state in the air, at 0 s."""
+
+    height_m: float = key(120.0, "Above the ground.", unit="m", minimum=1, maximum=5000)
+    airspeed_m_s: float | None = key(
+        None, "null: the cruise speed of the airframe.", unit="m/s", minimum=3, maximum=80
+    )
+    roll_deg: float = key(0.0, "Right wing down positive.", unit="deg", minimum=-180, maximum=180)
+    pitch_deg: float | None = key(
+        None, "Nose up positive. null: that of the airframe.", unit="deg", minimum=-85, maximum=85
+    )
+    heading_deg: float = key(0.0, "0 is north, 90 east.", unit="deg", minimum=0, maximum=360)
+    climb_m_s: float | None = key(
+        None,
+        "Through the air, up positive. null: the climb of the airframe at this pitch.",
+        unit="m/s",
+        minimum=-60,
+        maximum=30,
+    )
+    roll_rate_deg_s: float = _rate("Initial roll rate, right wing down positive.")
+    pitch_rate_deg_s: float = _rate("Initial pitch rate, nose up positive.")
+    yaw_rate_deg_s: float = _rate("Initial yaw rate, clockwise from above positive.")
+    throttle: float | None = key(
+        None,
+        "Initial motor throttle. null: that of the throttle stick at 0 s.",
+        minimum=0,
+        maximum=1,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Start(StartPart):
+    """Initial conditions of a flight, its motor's throttle and the throw included.
+
+    ``throw_m_s``: a hand holds the aircraft until it is thrown, so fast over the ground; the
+    airspeed is then that speed and the headwind.
     """
 
-    height_m: float = 120.0
-    airspeed_m_s: float | None = None
-    roll_deg: float = 0.0
-    pitch_deg: float | None = None
-    heading_deg: float = 0.0
-    climb_m_s: float | None = None
     throttle: float = 0.0
-    roll_rate_deg_s: float = 0.0
-    pitch_rate_deg_s: float = 0.0
-    yaw_rate_deg_s: float = 0.0
     throw_m_s: float | None = None
 
 

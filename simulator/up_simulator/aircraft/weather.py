@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from up.config import items, key
 from up_simulator.aircraft.model import FOOT_M, FlightModel
 
 Turbulence = Literal["none", "light", "moderate", "severe"]
@@ -25,23 +26,25 @@ _TUSTIN = 4
 
 @dataclass(frozen=True, slots=True)
 class Gust:
-    """A gust of 1-cosine shape: it begins ``at_s``, is greatest at half its duration, and ends."""
+    """A gust: moving air that rises and fades as (1 - cos)."""
 
-    at_s: float
-    duration_s: float
-    north_m_s: float = 0.0
-    east_m_s: float = 0.0
-    down_m_s: float = 0.0
+    at_s: float = key(0.0, "Start time.", unit="s", minimum=0, maximum=3600)
+    duration_s: float = key(1.0, "Duration.", unit="s", minimum=0.02, maximum=600)
+    north_m_s: float = key(0.0, "Speed to the north.", unit="m/s", minimum=-30, maximum=30)
+    east_m_s: float = key(0.0, "Speed to the east.", unit="m/s", minimum=-30, maximum=30)
+    down_m_s: float = key(0.0, "Speed down.", unit="m/s", minimum=-30, maximum=30)
 
 
 @dataclass(frozen=True, slots=True)
 class Weather:
-    """Steady wind from a direction, milspec turbulence, and gusts at their times."""
+    """Wind, turbulence and gusts."""
 
-    wind_m_s: float = 0.0
-    wind_from_deg: float = 180.0
-    turbulence: Turbulence = "none"
-    gusts: tuple[Gust, ...] = ()
+    wind_m_s: float = key(0.0, "Wind speed.", unit="m/s", minimum=0, maximum=30)
+    wind_from_deg: float = key(
+        180.0, "Direction that the wind comes from: 0 is north.", unit="deg", minimum=0, maximum=360
+    )
+    turbulence: Turbulence = key("none", "Spectrum of MIL-F-8785C, different for every seed.")
+    gusts: tuple[Gust, ...] = items(Gust, "Single gusts.", max_length=100)
 
     @property
     def wind_ned_m_s(self) -> tuple[float, float]:

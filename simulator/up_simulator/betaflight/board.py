@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from up_rig.imu import Motion
-from up_simulator.aircraft.flight import Dynamics
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.betaflight.packets import (
     PWM_PORT,
     PWM_SIZE,
@@ -23,13 +23,7 @@ from up_simulator.betaflight.packets import (
     pack_sticks,
     read_servos,
 )
-from up_simulator.firmware.board import (
-    NEUTRAL_US,
-    BoardCrashedError,
-    Channel,
-    Pulses,
-    ResetCause,
-)
+from up_simulator.firmware.board import NEUTRAL_US, BoardCrashedError, Channel, Pulses, ResetCause
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.imu_errors import BoardImu, ImuErrors
 from up_simulator.harness.child import Child
@@ -55,11 +49,6 @@ def find_program(program: str = PROGRAM) -> str:
     raise BoardUnavailableError(text)
 
 
-class _Imu(BoardImu):
-    def measure(self, time_s: float) -> Motion:
-        return self._model.measure(self.motion, time_s)
-
-
 class BetaflightBoard:
     """A ``FirmwareBoard`` whose program is not ours; it runs in real time, whatever is asked of it.
 
@@ -71,10 +60,10 @@ class BetaflightBoard:
     title = "Betaflight (SITL)"
     eeprom = b""
 
-    def __init__(self, flight: Dynamics, program: str = PROGRAM, seed: int = 1) -> None:
+    def __init__(self, flight: FlightDynamics, program: str = PROGRAM, seed: int = 1) -> None:
         self._program = find_program(program)
         self._flight = flight
-        self.imu = _Imu(ImuErrors(), seed)
+        self.imu = BoardImu(ImuErrors(), seed)
         self.on_ground: Sticks | None = None
         self._sticks = Sticks()
         self._now_us = self._frame_us = 0.0
@@ -109,11 +98,12 @@ class BetaflightBoard:
         """
         self._now_us += duration_us
         motion = self.imu.measure(self._now_us / 1e6)
-        self._send(STATE_PORT, pack_state(motion, self._flight.state, self._first))
+        packet = pack_state(motion, self._flight.state, self._first)
+        self._socket.sendto(packet, (_HOST, STATE_PORT))
         sticks = self.on_ground or self._sticks
         if self._now_us >= self._frame_us and sticks.is_on:
             self._frame_us = self._now_us + FRAME_US
-            self._send(RECEIVER_PORT, pack_sticks(sticks))
+            self._socket.sendto(pack_sticks(sticks), (_HOST, RECEIVER_PORT))
         packet = b""
         with suppress(BlockingIOError):
             while True:
@@ -156,7 +146,6 @@ class BetaflightBoard:
         self._start()
 
     def close(self) -> None:
-        """End the program, and forget its settings."""
         self._end()
         self._socket.close()
         shutil.rmtree(self._folder, ignore_errors=True)
@@ -198,6 +187,3 @@ class BetaflightBoard:
         if self._child is not None:
             self._child.end()
             self._child = None
-
-    def _send(self, port: int, packet: bytes) -> None:
-        self._socket.sendto(packet, (_HOST, port))

@@ -70,10 +70,9 @@ def _pulse(value: float) -> int:
 
 def _quaternion(state: FlightState) -> Sequence[float]:
     """Return the attitude in the frame of Gazebo's plug-in, from which SITL turns it back."""
-    (cr, sr), (cp, sp), (cy, sy) = (
-        (math.cos(half), math.sin(half))
-        for half in (math.radians(each) / 2 for each in _angles(state))
-    )
+    angles_deg = (state.roll_deg, state.pitch_deg, state.yaw_deg)
+    halves = [math.radians(each) / 2 for each in angles_deg]
+    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(half), math.sin(half)) for half in halves)
     # From the body's axes forward, left, up to north, west, up.
     w = cr * cp * cy + sr * sp * sy
     x = sr * cp * cy - cr * sp * sy
@@ -85,7 +84,3 @@ def _quaternion(state: FlightState) -> Sequence[float]:
         -_HALF_SQRT * (y - x),
         -_HALF_SQRT * (z - w),
     )
-
-
-def _angles(state: FlightState) -> tuple[float, float, float]:
-    return state.roll_deg, state.pitch_deg, state.yaw_deg

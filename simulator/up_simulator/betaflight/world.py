@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from up_rig.imu import motion_at
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.betaflight.board import BetaflightBoard
 from up_simulator.firmware.board import BoardCrashedError, FirmwareBoard
 from up_simulator.harness.world import STEP_US, THROTTLE, THROTTLE_LOW_US, World
@@ -24,7 +24,7 @@ class BetaflightWorld(World):
     """
 
     def __init__(
-        self, flight: FlightSource, board: BetaflightBoard, around: FirmwareBoard | None = None
+        self, flight: FlightDynamics, board: BetaflightBoard, around: FirmwareBoard | None = None
     ) -> None:
         super().__init__(flight, around or board)
         self._betaflight = board

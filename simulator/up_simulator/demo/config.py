@@ -31,17 +31,15 @@ def write_config(
     controller: str,
     airframe: Airframe,
     uplink_port: int = 0,
-    is_at_start: bool = True,
     is_plain: bool = False,
     has_mavlink: bool = False,
 ) -> None:
     """Write the files of a run; gains that an earlier run of the same airframe saved stay.
 
     ``controller`` (arduino or raspberry) holds the attitude: nothing else differs. The aircraft
-    finds the proxy at ``uplink_port`` if a bad link lies between them. ``is_at_start``: it is
-    launched above the simulator's usual place, whose ground is home. ``is_plain``: everyone who
-    reaches the proxy may arm and tune, otherwise only devices with a key.
-    ``has_mavlink``: every program of this machine may do so by MAVLink.
+    finds the proxy at ``uplink_port`` if a bad link lies between them. ``is_plain``: everyone who
+    reaches the proxy may arm and tune, otherwise only devices with a key. ``has_mavlink``: every
+    program of this machine may do so by MAVLink.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = {
@@ -58,6 +56,9 @@ def write_config(
             + "tune_in_flight: true\n"
         ),
         "mavlink.yml": _mavlink(ports) if has_mavlink else "endpoints: []\n",
+        # The flight begins in the air, where the daemon resumes it: home is on the ground below, as
+        # after an arming.
+        "flight_state.yml": yaml.safe_dump({"mode": "", "home": HOME}),
         "navigation.yml": yaml.safe_dump(airframe.navigation, sort_keys=False),
         "proxy.yml": (
             f"airborne port: {ports.airborne}\n"
@@ -65,12 +66,8 @@ def write_config(
             f"metrics port: {ports.metrics}\n"
         ),
     }
-    # This flight is another one than that of which an earlier run kept home and flight mode. It
-    # begins in the air, where the daemon resumes it: home is on the ground, as after an arming.
-    for name in ("flight_state.yml", "flight_state.yml.good"):
-        (folder / name).unlink(missing_ok=True)
-    if is_at_start:
-        files["flight_state.yml"] = yaml.safe_dump({"mode": "", "home": HOME})
+    # An earlier run kept home and flight mode of another flight.
+    (folder / "flight_state.yml.good").unlink(missing_ok=True)
     for name, text in files.items():
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")

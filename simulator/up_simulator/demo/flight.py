@@ -62,7 +62,6 @@ class DemoFlight:
         self._ports = Ports()
 
     def start(self) -> None:
-        """Start all components and launch the aircraft."""
         log, options, folder = self._log, self._options, self._folder
         log("Raspilot's virtual aircraft: the real firmware, daemon, proxy and ground station,")
         log(f"all on this machine. Configuration and logs: {folder}")
@@ -136,7 +135,6 @@ class DemoFlight:
             time.sleep(POLL_PERIOD_S)
 
     def stop(self) -> None:
-        """End every part, the newest first."""
         for child in reversed(self._children):
             child.terminate()
         for child in reversed(self._children):

@@ -27,10 +27,10 @@ from up_simulator.harness.start_options import (
     BOARD_HELP,
     BOARDS,
     TURBULENCE,
-    link_settings,
     new_file,
     wind_m_s,
 )
+from up_simulator.harness.uplink import read_link
 from up_simulator.harness.user_log import print_line
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -137,7 +137,7 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument(
         "--link",
-        type=_text_of(link_settings),
+        type=_text_of(read_link),
         default="",
         help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
     )

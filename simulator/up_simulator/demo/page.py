@@ -47,7 +47,6 @@ class Page:
 
     @property
     def reason(self) -> str:
-        """Return in words why the page is missing."""
         status = self.child.poll()
         if status is None:
             return f"no address within {LIMIT_S:.0f} s (its log: {self.child.log})"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from up_rig.build import ARDUINO, BuildError, build_firmware, build_host_library
 from up_rig.library import load_library
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.direct_board import DirectBoard
+from up_simulator.firmware.host_board import HostBoard
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.rig_board import RigBoard
 from up_simulator.harness.user_log import Log, no_log
@@ -110,8 +110,7 @@ def _host_program(log: Log) -> Program:
             raise BoardUnavailableError(reason) from error
         text = f"the firmware for this computer {_NOT_REBUILT}: {reason}"
         log(text, code="board_outdated", reason=reason)
-    module = importlib.import_module("up_simulator.firmware.host_board")
-    return Program(library, module.HostBoard)
+    return Program(library, HostBoard)
 
 
 def _is_ready(program: Path) -> bool:

@@ -8,22 +8,14 @@ from pathlib import Path
 
 from up_rig.imu import GRAVITY_M_S2, Motion
 from up_rig.pins import CHANNELS
-from up_simulator.firmware.board import (
-    NEUTRAL_US,
-    Channel,
-    Pulses,
-    ResetCause,
-)
+from up_simulator.firmware.board import NEUTRAL_US, Channel, Pulses, ResetCause
 from up_simulator.firmware.host_library import (
     EEPROM_SIZE,
     SAMPLE_NUMBERS,
     HostLibrary,
-    HostUnavailableError,
     View,
 )
 from up_simulator.firmware.imu_errors import BoardImu, ImuErrors, ImuFault
-
-__all__ = ["HostBoard", "HostImu", "HostUnavailableError"]
 
 _CAUSES: dict[ResetCause, int] = {"power": 1, "button": 2, "brown-out": 4, "watchdog": 8}
 _CHANNELS = {channel: at for at, channel in enumerate(CHANNELS)}
@@ -35,14 +27,14 @@ _TEMPERATURE = round((25.0 - 36.53) * 340)
 
 
 class HostImu(BoardImu):
-    """The MPU6050's measurements in a host build, by the same ``ImuModel`` as the rig's."""
+    """The MPU6050's measurements in a host build."""
 
     def __init__(self, library: HostLibrary, errors: ImuErrors, seed: int) -> None:
         super().__init__(errors, seed)
         self._library = library
         self._view: View = library.view
         self._sample = library.view.sample
-        self._random = random.Random(f"imu {seed}")
+        self._garbage = random.Random(f"imu {seed}")
         self._numbers = [0] * SAMPLE_NUMBERS
 
     def set_fault(self, fault: ImuFault) -> None:
@@ -50,15 +42,15 @@ class HostImu(BoardImu):
         self._library.set_imu_fault({"unplugged": 1, "stuck": 2}.get(fault, 0))
 
     def give_sample(self) -> None:
-        if self._fault == "garbage":
-            self._numbers = [self._random.randint(-32768, 32767) for _ in range(SAMPLE_NUMBERS)]
-        elif self._fault != "frozen":
+        if self.fault == "garbage":
+            self._numbers = [self._garbage.randint(-32768, 32767) for _ in range(SAMPLE_NUMBERS)]
+        elif self.fault != "frozen":
             self._numbers = self._measure()
         self._sample[:] = self._numbers
 
     def _measure(self) -> list[int]:
         view = self._view
-        felt = self._model.measure(self.motion, view.sample_us / 1e6)
+        felt = self.measure(view.sample_us / 1e6)
         registers = view.imu_registers
         a_deg_s = _COUNTS_DEG_S / (1 << (registers[_GYRO_CONFIG] >> 3 & 3))
         a_m_s2 = _COUNTS_G / (1 << (registers[_ACCEL_CONFIG] >> 3 & 3)) / GRAVITY_M_S2
@@ -81,7 +73,7 @@ class HostBoard:
     """A ``FirmwareBoard`` that runs the firmware's sources, compiled for this computer.
 
     The chip's hardware is modelled by function, not by register: pulses are exact, and the time
-    that its instructions take is a guess. Raises ``HostUnavailableError``.
+    that its instructions take is a guess. Raises ``RigUnavailableError``.
     """
 
     title = "the firmware compiled for this computer"
@@ -126,10 +118,8 @@ class HostBoard:
         self._library.set_a7(volts)
 
     def pulses_us(self) -> Pulses:
-        ailerons, elevator, throttle, rudder = self._width_us
-        if ailerons and elevator and throttle and rudder:
-            return ailerons, elevator, throttle, rudder
         # 0: no pulse yet.
+        ailerons, elevator, throttle, rudder = self._width_us
         neutral = NEUTRAL_US
         return (
             ailerons or neutral[0],

@@ -20,10 +20,6 @@ SAMPLE_NUMBERS = 7
 _BUILD = "make -C arduino host-library builds it"
 
 
-class HostUnavailableError(RigUnavailableError):
-    """The host build cannot be loaded: the message is one sentence for the user."""
-
-
 class View(ctypes.Structure):
     """Data shared by the library and its caller; ``host_board_view`` of host_board.h."""
 
@@ -41,7 +37,7 @@ class View(ctypes.Structure):
 class HostLibrary:
     """A private copy of the library, with the functions of host_board.h without their prefix.
 
-    It is unloaded with the last reference to it. Raises ``HostUnavailableError``.
+    It is unloaded with the last reference to it. Raises ``RigUnavailableError``.
     """
 
     def __init__(self, path: Path) -> None:
@@ -80,7 +76,7 @@ def _load_copy(path: Path) -> ctypes.CDLL:
         finally:
             Path(name).unlink()
     except OSError as error:
-        raise HostUnavailableError(
+        raise RigUnavailableError(
             f"the host build of the firmware {path} cannot be loaded ({error}): {_BUILD}"
         ) from error
 
@@ -91,4 +87,4 @@ def _check(library: ctypes.CDLL, path: Path) -> None:
     except AttributeError:
         version = None
     if version != VERSION:
-        raise HostUnavailableError(f"{path} is not a host build of this firmware: {_BUILD} again")
+        raise RigUnavailableError(f"{path} is not a host build of this firmware: {_BUILD} again")

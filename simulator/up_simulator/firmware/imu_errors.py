@@ -53,22 +53,33 @@ def drawn_errors(seed: int, **known: Any) -> ImuErrors:
     return ImuErrors(**{"gyro_bias_deg_s": bias, "gyro_drift_deg_s": drift, **known})
 
 
-class ImuModel:
-    """Turns the aircraft's motion into its IMU's measurements; the same seed gives equal errors.
+class BoardImu:
+    """The sensor of a board: it turns the aircraft's motion into measurements.
 
-    ``errors`` may be changed in flight. ``throttle`` (0 to 1) is the speed of the motor.
+    ``motion`` holds until it is set again. ``errors`` and ``throttle``, the speed of the motor (0
+    to 1), may change in flight. The same seed gives equal errors.
     """
 
     def __init__(self, errors: ImuErrors, seed: int) -> None:
         self.errors = errors
         self.throttle = 0.0
-        self._random = random.Random(f"imu errors {seed}").random
+        self.motion = Motion()
+        self.fault: ImuFault = "well"
+        self._uniform = random.Random(f"imu errors {seed}").random
         self._turned = 0.0
         self._measured_s = 0.0
 
-    def measure(self, motion: Motion, time_s: float) -> Motion:
+    def set_fault(self, fault: ImuFault) -> None:
+        """Set a fault, or clear it.
+
+        frozen: it repeats the same sample. unplugged: no answer. stuck: it holds the bus.
+        garbage: it answers with random numbers.
+        """
+        self.fault = fault
+
+    def measure(self, time_s: float) -> Motion:
         """Return the measured motion at a time since power-on, which never falls."""
-        errors = self.errors
+        motion, errors = self.motion, self.errors
         p, q, r = errors.gyro_bias_deg_s
         x, y, z = errors.accel_bias_m_s2
         if errors.gyro_drift_deg_s != ZERO:
@@ -94,8 +105,8 @@ class ImuModel:
 
     def _normal(self) -> tuple[float, float]:
         """Return two numbers of the standard normal distribution (Box and Muller 1958)."""
-        angle = self._random() * _TURN
-        radius = math.sqrt(-2.0 * math.log(1.0 - self._random()))
+        angle = self._uniform() * _TURN
+        radius = math.sqrt(-2.0 * math.log(1.0 - self._uniform()))
         return math.cos(angle) * radius, math.sin(angle) * radius
 
     def _shake(self, time_s: float) -> Vector:
@@ -108,46 +119,3 @@ class ImuModel:
             strength * math.cos(angle),
             strength * math.sin(angle + math.pi / 4),
         )
-
-
-class BoardImu:
-    """The sensor of a board: its errors and its fault, both may change in flight.
-
-    ``motion`` holds until it is set again.
-    """
-
-    def __init__(self, errors: ImuErrors, seed: int) -> None:
-        self._model = ImuModel(errors, seed)
-        self._fault: ImuFault = "well"
-        self.motion = Motion()
-
-    @property
-    def errors(self) -> ImuErrors:
-        """Return its errors."""
-        return self._model.errors
-
-    @errors.setter
-    def errors(self, errors: ImuErrors) -> None:
-        self._model.errors = errors
-
-    @property
-    def throttle(self) -> float:
-        """Return the speed of the motor, 0 to 1, which causes its vibration."""
-        return self._model.throttle
-
-    @throttle.setter
-    def throttle(self, throttle: float) -> None:
-        self._model.throttle = throttle
-
-    @property
-    def fault(self) -> ImuFault:
-        """Return the last fault set."""
-        return self._fault
-
-    def set_fault(self, fault: ImuFault) -> None:
-        """Set a fault, or clear it.
-
-        frozen: it repeats the same sample. unplugged: no answer. stuck: it holds the bus.
-        garbage: it answers with random numbers.
-        """
-        self._fault = fault

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import struct
-from collections import Counter
-from dataclasses import dataclass
 
 from up.commands.board_schema import STATUS, BoardStatus
+from up.commands.orientation_command import OrientationCommand
 from up_simulator.firmware.wire import CheckedReader, Command, checked_frame
 
 SIZES = {
@@ -14,47 +13,22 @@ SIZES = {
 }  # fmt: skip
 """Payload bytes of every message from the Arduino in checked framing (protocols 2.4)."""
 _ORIENTATION = struct.Struct(">H6f")
-_OUTPUTS, _INPUTS = struct.Struct(">4H"), struct.Struct(">6HB")
-
-
-@dataclass(frozen=True, slots=True)
-class BoardOrientation:
-    """The board's estimate of its attitude: ``O``, in degrees and degrees per second."""
-
-    sequence: int
-    yaw_deg: float
-    pitch_deg: float
-    roll_deg: float
-    yaw_rate_deg_s: float
-    pitch_rate_deg_s: float
-    roll_rate_deg_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class Inputs:
-    """The six receiver inputs, us, and which of them are valid: ``i``."""
-
-    pulses_us: tuple[int, ...]
-    validity: int
 
 
 class LineMonitor:
     """Decodes the bytes that a board sends; each datum has the time at which it was complete.
 
-    A datum that no longer arrives keeps its last value, and its ``_s`` shows the age. ``counts``
-    counts the messages of each type, ``bad_frames`` the invalid ones, ``missing`` the gaps in the
-    sequence. A frame cut by a reset is invalid.
+    A datum that no longer arrives keeps its last value, and its ``_s`` shows the age.
+    ``bad_frames`` counts the invalid ones. A frame cut by a reset is invalid.
     """
 
     def __init__(self) -> None:
         self._reader = CheckedReader(SIZES)
         self._sequence = 0
-        self.counts: Counter[str] = Counter()
         self.status: BoardStatus | None = None
         self.status_s = -float("inf")
-        self.orientation: BoardOrientation | None = None
+        self.orientation: OrientationCommand | None = None
         self.orientation_s = -float("inf")
-        self.inputs: Inputs | None = None
         self.mode: str | None = None
         self.answers: list[Command] = []
 
@@ -63,15 +37,10 @@ class LineMonitor:
         counters = self._reader.counters
         return counters.crc_errors + counters.format_errors + counters.timeouts
 
-    @property
-    def missing(self) -> int:
-        return self._reader.counters.lost_by_sequence
-
     def feed(self, data: bytes, now_s: float) -> list[Command]:
         """Take bytes received until ``now_s``; return the messages that they complete."""
         found = self._reader.feed(data, now_s)
         for message in found:
-            self.counts[message.type] += 1
             self._take(message, now_s)
         return found
 
@@ -96,13 +65,14 @@ class LineMonitor:
                 self.status, self.status_s = BoardStatus(*STATUS.unpack(payload)), now_s
                 self.mode = self.status.mode_letter
             case "O":
-                self.orientation = BoardOrientation(*_ORIENTATION.unpack(payload))
+                sequence, yaw, pitch, roll, *rates = _ORIENTATION.unpack(payload)
+                yaw_rate, pitch_rate, roll_rate = rates
+                self.orientation = OrientationCommand(
+                    roll, pitch, yaw, roll_rate, pitch_rate, yaw_rate, sequence
+                )
                 self.orientation_s = now_s
-            case "r":
+            case "r" | "i":
                 pass
-            case "i":
-                *pulses_us, validity = _INPUTS.unpack(payload)
-                self.inputs = Inputs(tuple(pulses_us), validity)
             case _:
                 if message.type == "m":
                     self.mode = payload.decode("latin-1")

@@ -5,16 +5,11 @@ from __future__ import annotations
 import math
 import random
 from pathlib import Path
+from typing import get_args
 
-from up_rig import CHANNELS, SERVOS, CrashError, Motion, Rig
+from up_rig import SERVOS, CrashError, Motion, Rig
 from up_rig.imu import Fault
-from up_simulator.firmware.board import (
-    NEUTRAL_US,
-    BoardCrashedError,
-    Channel,
-    Pulses,
-    ResetCause,
-)
+from up_simulator.firmware.board import NEUTRAL_US, BoardCrashedError, Channel, Pulses, ResetCause
 from up_simulator.firmware.imu_errors import BoardImu, ImuErrors, ImuFault
 
 CYCLES_PER_US = 16
@@ -22,13 +17,13 @@ _A7 = 7
 
 
 class RigImu(BoardImu):
-    """The MPU6050 of the rig, with the errors of an ``ImuModel`` in place of the rig's own."""
+    """The MPU6050 of the rig, with the errors of a ``BoardImu`` in place of the rig's own."""
 
     def __init__(self, rig: Rig, errors: ImuErrors, seed: int) -> None:
         super().__init__(errors, seed)
         self._imu = rig.imu
         self._imu.noise_deg_s = self._imu.noise_m_s2 = 0.0
-        self._imu.motion = self._measure
+        self._imu.motion = self.measure
 
     def set_fault(self, fault: ImuFault) -> None:
         imu = self._imu
@@ -42,9 +37,6 @@ class RigImu(BoardImu):
         if fault == "stuck":
             imu.fail(Fault.SDA_LOW)
         super().set_fault(fault)
-
-    def _measure(self, time_s: float) -> Motion:
-        return self._model.measure(self.motion, time_s)
 
 
 class RigBoard:
@@ -85,11 +77,15 @@ class RigBoard:
         self._rig.receiver.set(channel, width_us)
 
     def set_receiver(self, is_on: bool) -> None:
-        for channel in CHANNELS:
-            self._switch(channel, is_on)
+        for channel in get_args(Channel):
+            self.set_channel(channel, is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        self._switch(channel, is_on)
+        # Frames continue without output: a restarted frame could run into the one before.
+        if is_on:
+            self._rig.receiver.resume(channel)
+        else:
+            self._rig.receiver.stop(channel)
 
     def set_motion(self, motion: Motion) -> None:
         self.imu.motion = motion
@@ -136,10 +132,3 @@ class RigBoard:
         if pulse is None:
             return math.inf
         return self.now_us - (pulse.rise_cycle + pulse.width_cycles) / CYCLES_PER_US
-
-    def _switch(self, channel: str, is_on: bool) -> None:
-        # Frames continue without output: a restarted frame could run into the one before.
-        if is_on:
-            self._rig.receiver.resume(channel)
-        else:
-            self._rig.receiver.stop(channel)

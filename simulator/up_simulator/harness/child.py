@@ -9,7 +9,7 @@ import subprocess
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from up.system.death_signal import request_death_signal
 from up.system.pid_file import VARIABLE
@@ -28,8 +28,7 @@ class Child:
     Its log is appended to ``<name>.log`` in ``folder``, as JSON lines if it is a program of the
     project; ``<name>.pid`` there has its process number if the program writes one. On Linux it
     gets ``death_signal`` when we die without ending it. ``in_foreground`` leaves it the terminal;
-    its output is not kept. With ``is_piped`` its standard input and output are ``input`` and
-    ``output``, and only its error output is kept. It runs in ``work_folder``, if there is one.
+    its output is not kept. It runs in ``work_folder``, if there is one.
     """
 
     def __init__(
@@ -39,7 +38,6 @@ class Child:
         folder: Path,
         *,
         in_foreground: bool = False,
-        is_piped: bool = False,
         death_signal: int = signal.SIGTERM,
         environment: Mapping[str, str] | None = None,
         work_folder: Path | None = None,
@@ -59,9 +57,9 @@ class Child:
         try:
             self._process = subprocess.Popen(
                 command,
-                stdin=_input_of(in_foreground, is_piped),
-                stdout=subprocess.PIPE if is_piped else output,
-                stderr=output if is_piped else subprocess.STDOUT if output else None,
+                stdin=None if in_foreground else subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT if output else None,
                 env=variables,
                 cwd=work_folder,
                 start_new_session=not in_foreground,
@@ -72,21 +70,10 @@ class Child:
                 output.close()
 
     @property
-    def input(self) -> IO[bytes]:
-        assert self._process.stdin is not None
-        return self._process.stdin
-
-    @property
-    def output(self) -> IO[bytes]:
-        assert self._process.stdout is not None
-        return self._process.stdout
-
-    @property
     def pid(self) -> int:
         return self._process.pid
 
     def poll(self) -> int | None:
-        """Return the exit status; None while it runs."""
         return self._process.poll()
 
     def lines(self) -> list[LogLine]:
@@ -157,10 +144,10 @@ class Child:
     def terminate(self) -> None:
         self.signal(signal.SIGTERM)
 
-    def wait(self, limit_s: float = STOP_LIMIT_S) -> int:
+    def wait(self) -> int:
         """Wait for its end, force it after a time, and return its status."""
         try:
-            return self._process.wait(limit_s)
+            return self._process.wait(STOP_LIMIT_S)
         except subprocess.TimeoutExpired:
             self._process.kill()
             return self._process.wait()
@@ -171,9 +158,3 @@ class Child:
     def end(self) -> int:
         self.terminate()
         return self.wait()
-
-
-def _input_of(in_foreground: bool, is_piped: bool) -> int | None:
-    if is_piped:
-        return subprocess.PIPE
-    return None if in_foreground else subprocess.DEVNULL

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from up.system.clock import Clock
 from up_simulator.aircraft import Start
-from up_simulator.aircraft.flight import Clock, FlightSource
-from up_simulator.harness.real_time import RealTimeWorld, SerialLine
+from up_simulator.aircraft.dynamics import FlightDynamics
+from up_simulator.harness.real_time import RealTimeWorld
 from up_simulator.harness.user_log import Log
 from up_simulator.harness.world import World
 from up_simulator.radio.choice import is_initially_armed
 from up_simulator.radio.sticks import Radio
+from up_simulator.sensors.ubx_receiver import Line
 
 RELAUNCH_DELAY_S = 3.0
 LANDED_DELAY_S = 20.0
@@ -32,9 +34,9 @@ class FirmwareAircraft:
 
     def __init__(
         self,
-        flight: FlightSource,
+        flight: FlightDynamics,
         world: World,
-        line: SerialLine,
+        line: Line,
         radio: Radio,
         clock: Clock,
         radio_name: str,

@@ -49,7 +49,6 @@ class RealProgram:
         self._child = Child(self.NAME, self._command, self._folder, death_signal=self.DEATH_SIGNAL)
 
     def wait_for(self, code: str, limit_s: float = START_LIMIT_S, **fields: Any) -> LogLine:
-        """Wait for a line with this code; raises as ``Child.wait_for``."""
         return self._started().wait_for(code, limit_s, **fields)
 
     def check(self) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
 
-from up_simulator.aircraft.flight import Clock, FlightSource
+from up.system.clock import Clock
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.harness.user_log import Log, no_log
 from up_simulator.harness.world import BYTES_A_STEP, STEP_S, World
 from up_simulator.radio.sticks import SWITCH_US, Radio, Sticks, Transmitter
+from up_simulator.sensors.ubx_receiver import Line
 
 MAX_LATE_S = 0.25
 REPORT_PERIOD_S = 60.0
@@ -16,16 +17,6 @@ STICK_STEPS = 10
 """A receiver sends a frame every 20 ms: reading the sticks more often has no effect."""
 MAX_STEPS = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
-
-
-class SerialLine(Protocol):
-    """The board's serial line, as ``up_rig.pty_line.PtyLine``."""
-
-    def read(self, timeout_s: float, most: int) -> bytes:
-        """Return the received bytes, waiting for them up to a time."""
-
-    def write(self, data: bytes) -> None:
-        """Send bytes, or drop them without a reader."""
 
 
 class RealTime:
@@ -68,7 +59,7 @@ class RealTime:
 class RealTimeFlight:
     """A flight without a board in real time."""
 
-    def __init__(self, flight: FlightSource, clock: Clock, log: Log) -> None:
+    def __init__(self, flight: FlightDynamics, clock: Clock, log: Log) -> None:
         self.time = RealTime(clock, log)
         self._flight = flight
         self._flown_s = 0.0
@@ -87,7 +78,7 @@ class RealTimeWorld:
     """
 
     def __init__(
-        self, world: World, line: SerialLine, radio: Radio, clock: Clock, log: Log = no_log
+        self, world: World, line: Line, radio: Radio, clock: Clock, log: Log = no_log
     ) -> None:
         self.world = world
         self.radio = radio

@@ -11,11 +11,10 @@ from typing import TypeVar
 from up.cli.option_parser import bounded_number, port_number
 from up_ground.key_store import KeyStore
 from up_ground.token_store import state_folder
-from up_rig.sticks import StickMove, SticksError, read_sticks
+from up_rig.sticks import SticksError, read_sticks
 from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.harness.uplink import UplinkError, read_link
-from up_simulator.link.model import LinkSettings
-from up_simulator.radio.axis_map import AxisMap, read_axis_map
+from up_simulator.radio.axis_map import read_axis_map
 from up_simulator.radio.sticks import RadioError
 from up_simulator.verbs.catalogue import verb_parser
 
@@ -153,11 +152,15 @@ def _add_pilot(group: argparse._ArgumentGroup) -> None:
         help="circle, script, keyboard or js0",
     )
     group.add_argument(
-        "--sticks", type=_sticks, default=[], metavar="SCRIPT", help="a script of stick moves"
+        "--sticks",
+        type=option_of(read_sticks),
+        default=[],
+        metavar="SCRIPT",
+        help="a script of stick moves",
     )
     group.add_argument(
         "--controller",
-        type=_controller,
+        type=option_of(read_axis_map),
         default="transmitter",
         metavar="MAP",
         help="axes and buttons of a game controller",
@@ -219,7 +222,7 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
 def _add_link(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--link",
-        type=link_settings,
+        type=option_of(read_link),
         metavar="LINK",
         help='a bad one: "delay=80 jitter=20 loss=1 rate=20000" (ms, ms, percent, bytes/s)',
     )
@@ -269,21 +272,13 @@ def _radio(text: str) -> str:
     return text
 
 
-def _sticks(text: str) -> list[StickMove]:
-    return _or_sentence(read_sticks, text)
+def option_of(read: Callable[[str], T]) -> Callable[[str], T]:
+    """Return the type of an option that shows the reader's own sentence."""
 
+    def parse(text: str) -> T:
+        try:
+            return read(text)
+        except (SticksError, RadioError, UplinkError) as error:
+            raise argparse.ArgumentTypeError(str(error)) from error
 
-def _controller(text: str) -> AxisMap:
-    return _or_sentence(read_axis_map, text)
-
-
-def link_settings(text: str) -> LinkSettings:
-    """Return a link's settings; raises ``ArgumentTypeError``."""
-    return _or_sentence(read_link, text)
-
-
-def _or_sentence(read: Callable[[str], T], text: str) -> T:
-    try:
-        return read(text)
-    except (SticksError, RadioError, UplinkError) as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
+    return parse

@@ -57,7 +57,6 @@ class TwoPaths:
         _run(*self.inside, "nft", f"table inet hole {{ {rules} }}")
 
     def restore(self) -> None:
-        """Let packets through again."""
         _run(*self.inside, "nft", "delete", "table", "inet", "hole")
 
     def close(self) -> None:

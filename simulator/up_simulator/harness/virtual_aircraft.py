@@ -20,7 +20,7 @@ from up_simulator.betaflight.world import BetaflightWorld, NoLine
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.harness.parts import make_board, make_flight
-from up_simulator.harness.real_time import RealTimeFlight, SerialLine
+from up_simulator.harness.real_time import RealTimeFlight
 from up_simulator.harness.uplink import make_uplink
 from up_simulator.harness.user_log import Log
 from up_simulator.harness.world import World
@@ -30,7 +30,7 @@ from up_simulator.phone.link import PythonHandset
 from up_simulator.radio.choice import choose_radio
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio
-from up_simulator.sensors.ubx_receiver import UbxReceiver
+from up_simulator.sensors.ubx_receiver import Line, UbxReceiver
 
 TICK_S = 0.004
 
@@ -126,7 +126,6 @@ class VirtualAircraft:
             options.sticks,
             options.controller,
             has_motor=airframe.has_motor,
-            is_armed=True,
             log=self._log,
             on_leave=on_leave,
             mode=mode,
@@ -162,9 +161,7 @@ class VirtualAircraft:
         aircraft.real_time.on_sent = on_sent
         return aircraft.advance
 
-    def _make_world(
-        self, options: argparse.Namespace, airframe: Airframe
-    ) -> tuple[World, SerialLine]:
+    def _make_world(self, options: argparse.Namespace, airframe: Airframe) -> tuple[World, Line]:
         if options.autopilot == "betaflight":
             self._betaflight = BetaflightBoard(self.flight, options.sitl, options.seed)
             text = f"aboard: {self._betaflight.title}"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from up_rig.imu import Motion, motion_at
-from up_simulator.aircraft.flight import Dynamics, FlightState
+from up_simulator.aircraft.dynamics import FlightDynamics
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.board import FirmwareBoard, Pulses
 
 STEP_S = 0.002
@@ -25,7 +26,7 @@ class World:
     for a flight that begins with a freshly powered board.
     """
 
-    def __init__(self, dynamics: Dynamics, board: FirmwareBoard) -> None:
+    def __init__(self, dynamics: FlightDynamics, board: FirmwareBoard) -> None:
         self.dynamics = dynamics
         self.board = board
         self._steps = 0

@@ -44,13 +44,13 @@ class InProcessGround:
         seed: int = 1,
     ) -> None:
         self.others: OrderedDict[str, Mapping[str, Any]] = OrderedDict()
+        self.newest_s: float | None = None
         self._reactor = reactor
         self._seed = seed
         self._settings = Settings(host, port, seat=Seat.COMMAND)
         self._tokens = _TokenInMemory(self._settings)
         self._received = Telemetry()
         self._answers: OrderedDict[str, str] = OrderedDict()
-        self._newest_s: float | None = None
         self._newest_age_s: float | None = None
         self._max_age_s: float | None = None
         self._sent = 0
@@ -65,10 +65,6 @@ class InProcessGround:
     def frames(self) -> int:
         return self._received.frames
 
-    @property
-    def newest_s(self) -> float | None:
-        return self._newest_s
-
     def take_latency_s(self) -> float | None:
         """Return the maximum age of the data since the last call, otherwise the newest frame's."""
         max_s, self._max_age_s = self._max_age_s, None
@@ -77,7 +73,6 @@ class InProcessGround:
 
     @property
     def beacon(self) -> int | None:
-        """Return the number of the newest frame, which the next Command will echo."""
         return self._received.beacon
 
     @property
@@ -91,7 +86,7 @@ class InProcessGround:
 
     def start(self) -> None:
         if self._link is None:
-            self._host = self._reactor.host("ground")
+            self._host = self._reactor.host()
             backoff = Backoff(Random(self._seed).random)
             link = GroundLink(self._host, self._settings, self, self._tokens, backoff)
             self._link = link
@@ -116,7 +111,7 @@ class InProcessGround:
     def on_message(self, message: GeneralMessage) -> None:
         now_s = self._reactor.seconds()
         if self._received.update(message, now_s):
-            self._newest_s = now_s
+            self.newest_s = now_s
             made_ms = number_at(message.data, ("system", "clock_ms"))
             age_s = None if made_ms is None else max(0.0, now_s - made_ms / 1000)
             # The age is unknown: it may have any value.

@@ -34,8 +34,7 @@ class SimulatedHost:
     ``cut_off`` kills the program: no timer, descriptor or port of it is left.
     """
 
-    def __init__(self, reactor: SimulatedReactor, name: str) -> None:
-        self.name = name
+    def __init__(self, reactor: SimulatedReactor) -> None:
         self.running = True
         self.reactor = reactor
         self.network = reactor.network
@@ -116,7 +115,6 @@ class SimulatedHost:
         return listening
 
     def do(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Call into the program while it lives."""
         if self.running:
             call(*arguments)
 

@@ -54,7 +54,7 @@ class MavlinkGround:
         self._loop = LoopingCall(self._on_period)
 
     def start(self) -> None:
-        host: Any = self._reactor.host("mavlink ground")
+        host: Any = self._reactor.host()
         self._host = self._loop.clock = host
         self._loop.start(PERIOD_S)
 
@@ -75,7 +75,6 @@ class MavlinkGround:
             self.is_silent = order == "silent"
 
     def write(self, packet: bytes) -> None:
-        """Send a packet; without a connection it is lost."""
         if self._connection is not None:
             self._connection.transport.write(bytes(packet))
 

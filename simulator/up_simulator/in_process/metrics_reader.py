@@ -33,7 +33,7 @@ class MetricsReader:
         self._loop = LoopingCall(self._read)
 
     def start(self) -> None:
-        host: Any = self._reactor.host("prometheus")
+        host: Any = self._reactor.host()
         self._host = self._loop.clock = host
         self._loop.start(PERIOD_S)
 

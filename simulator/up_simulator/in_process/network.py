@@ -28,22 +28,17 @@ class Route:
         self._network = network
         self.pipe = pipe
 
-    @property
-    def is_perfect(self) -> bool:
-        return self.pipe is None
-
     def carry(self, size: int, call: Callable[..., object], *arguments: Any) -> None:
         if self.pipe is None:
             self._network.next_step.append((call, arguments))
         else:
-            self.pipe.send((call, arguments), size, self._network.seconds())
+            self.pipe.send((call, arguments), size, self._network.clock.seconds())
 
 
 class Network:
     """Holds the listeners, and delivers every packet at its time."""
 
     def __init__(self, clock: Any) -> None:
-        self.seconds: Callable[[], float] = clock.seconds
         self.clock = clock
         self.next_step: deque[Delivery] = deque()
         self.tcp: dict[int, Any] = {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from twisted.internet.defer import Deferred
 
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.harness.user_log import text_log
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
@@ -28,23 +28,21 @@ class InProcessPhone:
     def __init__(
         self,
         reactor: SimulatedReactor,
-        flight: FlightSource,
+        flight: FlightDynamics,
         *,
         orientation: OrientationBy = "tcp",
         seed: int = 1,
         general_port: int = GENERAL_PORT,
         orientation_port: int = ORIENTATION_PORT,
-        cable: LinkSettings = CABLE,
     ) -> None:
         self.messages: list[str] = []
-        self.up = LinkModel(cable, seed)
-        self.down = LinkModel(cable, seed + 1)
+        self.up = LinkModel(CABLE, seed)
+        self.down = LinkModel(CABLE, seed + 1)
         self._reactor = reactor
-        self._ports = (general_port, orientation_port)
         self._place = RaspberryPi(ADDRESS, general_port, orientation_port)
-        for port in self._ports:
+        for port in (general_port, orientation_port):
             reactor.link(port, self.up, self.down)
-        self._host = reactor.host("phone")
+        self._host = reactor.host()
         self.handset = PythonHandset(
             self._host, flight, self.find, orientation, text_log(self._note), seed=seed
         )

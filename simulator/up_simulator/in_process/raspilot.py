@@ -91,25 +91,18 @@ class SettableMeter:
 class InProcessRaspilot:
     """Loads, starts, stops and kills the application as its program does.
 
-    The application is found from ``root``, otherwise it is the installed Raspilot; a folder
-    configures it (``write_config``). Its serial port is a socket in this process, whatever port its
-    configuration names, which ``pump`` connects with a board; ``line`` can be unplugged. So are the
-    ports of a satellite receiver, ``gps_line``, of a CRSF receiver, ``crsf_line``, and of goggles,
-    ``goggles_line``; ``i2c`` is its I2C bus. Its random numbers follow ``seed``. Signals, the
-    process's priority, its watchdogs and its garbage collector belong to the program, and are not
-    part of this. A proxy must be configured by its address: a name would be resolved by a thread.
+    A folder configures it (``write_config``). Its serial port is a socket in this process, whatever
+    port its configuration names, which ``pump`` connects with a board; ``line`` can be unplugged.
+    So are the ports of a satellite receiver, ``gps_line``, of a CRSF receiver, ``crsf_line``, and
+    of goggles, ``goggles_line``; ``i2c`` is its I2C bus. Its random numbers follow ``seed``.
+    Signals, the process's priority, its watchdogs and its garbage collector belong to the program,
+    and are not part of this. A proxy must be configured by its address: a name would be resolved by
+    a thread.
     """
 
     log_source = Logger()
 
-    def __init__(
-        self,
-        reactor: SimulatedReactor,
-        config_folder: Path,
-        *,
-        seed: int = 1,
-        root: Path | None = None,
-    ) -> None:
+    def __init__(self, reactor: SimulatedReactor, config_folder: Path, *, seed: int = 1) -> None:
         self.meter = SettableMeter()
         self.line = SocketLine()
         self.gps_line, self.crsf_line, self.goggles_line = SocketLine(), SocketLine(), SocketLine()
@@ -119,7 +112,6 @@ class InProcessRaspilot:
         self._reactor = reactor
         self._config_folder = config_folder
         self._seed = seed
-        self._root = root
         self._log = DaemonLog(reactor.seconds)
         self._host: SimulatedHost | None = None
         self._life: LifeCycle | None = None
@@ -135,19 +127,14 @@ class InProcessRaspilot:
         """Return the newest lines of all starts, with simulated seconds."""
         return list(self._log.lines)
 
-    @property
-    def ports(self) -> dict[str, int]:
-        return {} if self.up is None else dict(self.up.ports)
-
     def start(self) -> None:
         """Begin to boot; raises ParticipantError with every error that the program would print."""
         if self.is_running:
             raise ParticipantError("Raspilot is already running")
-        host = self._reactor.host("raspilot")
+        host = self._reactor.host()
         application = None
         try:
-            root = self._root
-            application = Application.find(root) if root else Application.installed("raspilot")
+            application = Application.installed("raspilot")
             context = make_context(application, host, self._config_folder, {})
             # A later start draws other numbers, as a later process would.
             context.random = Random(self._seed + 1_000_003 * self.boots)
@@ -218,16 +205,16 @@ class InProcessRaspilot:
         raise LookupError(f"no module {class_name} is loaded")
 
     def _substitute_modules(self, up: Up) -> None:
+        lines = {
+            "SerialProvider": self.line,
+            "GpsProvider": self.gps_line,
+            "CrsfReceiver": self.crsf_line,
+            "GogglesOsd": self.goggles_line,
+        }
         for module in up.modules:
             each: Any = module
-            if module.class_name == "SerialProvider":
-                each.open_port = partial(_open, self.line)
-            elif module.class_name == "GpsProvider":
-                each.open_port = partial(_open, self.gps_line)
-            elif module.class_name == "CrsfReceiver":
-                each.open_port = partial(_open, self.crsf_line)
-            elif module.class_name == "GogglesOsd":
-                each.open_port = partial(_open, self.goggles_line)
+            if module.class_name in lines:
+                each.open_port = partial(_open, lines[module.class_name])
             elif module.class_name == "I2cSensors":
                 each.open_bus = lambda _number: self.i2c
                 each.start = partial(_start_in_reactor, each)

@@ -45,9 +45,9 @@ class SimulatedReactor(Clock):
         self._readers: dict[Any, int] = {}
         self._writers: dict[Any, int] = {}
 
-    def host(self, name: str = "") -> SimulatedHost:
-        """Return a reactor for one program; ``name`` is for messages."""
-        return SimulatedHost(self, name)
+    def host(self) -> SimulatedHost:
+        """Return a reactor for one program."""
+        return SimulatedHost(self)
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
         """Route connections and datagrams to a port over a link from now on.

@@ -4,7 +4,6 @@ import socket
 
 GIVE_UP_S = 924.0
 """Without a user timeout (Linux: 15 retries)."""
-_TCP = socket.IPPROTO_TCP
 
 
 class SocketOptions:
@@ -16,11 +15,8 @@ class SocketOptions:
     @property
     def give_up_s(self) -> float:
         """Return how long bytes may stay unacknowledged."""
-        return self.user_timeout_s or GIVE_UP_S
-
-    @property
-    def user_timeout_s(self) -> float:
-        return self._values.get((_TCP, socket.TCP_USER_TIMEOUT), 0) / 1000
+        user_timeout_ms = self._values.get((socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT), 0)
+        return user_timeout_ms / 1000 or GIVE_UP_S
 
     def setsockopt(self, level: int, option: int, value: int) -> None:
         self._values[level, option] = value

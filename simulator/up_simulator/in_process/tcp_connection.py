@@ -80,7 +80,6 @@ class TcpConnection:
         self.write(b"".join(iovec))
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send the queued data, then close."""
         if self.connected and not self.disconnecting:
             self.disconnecting = True
             self._want_to_write()
@@ -128,7 +127,6 @@ class TcpConnection:
     # Called by listeners, connectors, the network and the host.
 
     def attach(self) -> None:
-        """Begin to serve the program."""
         self._has_program = True
         self._host.opened[self] = None
 
@@ -191,7 +189,7 @@ class TcpConnection:
         is_new = offset == self._expected
         if is_new:
             self._expected += len(data) + is_last
-        if self._route.is_perfect:
+        if self._route.pipe is None:
             self.peer.on_acknowledged(self._expected, sent_s)
         else:
             self._route.carry(HEADER, self.peer.on_acknowledged, self._expected, sent_s)
@@ -233,7 +231,7 @@ class TcpConnection:
         self._in_flight += len(data)
         self._unacknowledged.append(item)
         self._route.carry(HEADER + len(data), self.peer.on_segment, *item)
-        if self._retry is None and not self._route.is_perfect:
+        if self._retry is None and self._route.pipe is not None:
             self._schedule_retry()
 
     def _release(self) -> None:

@@ -32,7 +32,6 @@ class TcpPort:
         self._is_open = False
 
     def startListening(self) -> None:  # noqa: N802 - Twisted's name
-        """Open it; raises CannotListenError."""
         network = self.host.network
         self._number = network.bind(network.tcp, self._number, self, self.interface)
         self._is_open = True

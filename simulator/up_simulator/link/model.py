@@ -6,6 +6,8 @@ import math
 import random
 from dataclasses import dataclass
 
+from up.config import key
+
 
 @dataclass(frozen=True, slots=True)
 class LinkSettings:
@@ -16,10 +18,20 @@ class LinkSettings:
     queue; 0 means no bottleneck.
     """
 
-    delay_ms: float = 0.0
-    jitter_ms: float = 0.0
-    loss_percent: float = 0.0
-    rate_bytes_s: float = 0.0
+    delay_ms: float = key(0.0, "Transit time of each packet.", unit="ms", minimum=0, maximum=60_000)
+    jitter_ms: float = key(
+        0.0, "Maximum random additional transit time.", unit="ms", minimum=0, maximum=60_000
+    )
+    loss_percent: float = key(
+        0.0,
+        "Share of lost packets; TCP retransmits them.",
+        unit="%",
+        minimum=0,
+        maximum=100,
+    )
+    rate_bytes_s: float = key(
+        0.0, "Maximum bytes per second; 0: unlimited.", unit="B/s", minimum=0, maximum=1e9
+    )
 
     def __post_init__(self) -> None:
         for name in ("delay_ms", "jitter_ms", "loss_percent", "rate_bytes_s"):
@@ -29,8 +41,6 @@ class LinkSettings:
         if self.loss_percent > 100:
             raise ValueError(f"loss_percent is at most 100, not {self.loss_percent!r}")
 
-
-__all__ = ["LinkModel", "LinkSettings"]
 
 INITIAL_RETRY_S = 0.2
 """The least time after which TCP sends a lost packet again (Linux; RFC 6298 requires 1 s)."""
@@ -45,7 +55,8 @@ class LinkModel:
     The same seed, settings and calls give the same times. Times are seconds of the caller's clock
     and must not go back. Order is kept, for datagrams as well, as on a cellular link.
 
-    ``settings`` may be replaced at any time: new ones hold for later packets.
+    ``settings`` may be replaced at any time: new ones hold for later packets. ``blackouts`` counts
+    the blackouts so far: packets in flight at the start of one are lost.
     """
 
     def __init__(self, settings: LinkSettings | None = None, seed: int = 1) -> None:
@@ -55,22 +66,8 @@ class LinkModel:
         self._newest_s = -math.inf
         self._resumed_s = -math.inf
         self._is_stalled = False
-        self._is_black = False
-        self._blackouts = 0
-
-    @property
-    def is_stalled(self) -> bool:
-        """Return whether all packets are held, to arrive in a burst later."""
-        return self._is_stalled
-
-    @property
-    def is_black(self) -> bool:
-        return self._is_black
-
-    @property
-    def blackouts(self) -> int:
-        """Return the number of blackouts so far: packets in flight at the start of one are lost."""
-        return self._blackouts
+        self.is_black = False
+        self.blackouts = 0
 
     def send(self, size: int, now_s: float, *, is_datagram: bool = False) -> float | None:
         """Return when a packet of ``size`` bytes arrives, or None: it never does.
@@ -86,7 +83,7 @@ class LinkModel:
         jitter_s = self._random.random() * settings.jitter_ms / 1000
         retries = self._retries()
         # A lost packet may still have filled the bottleneck; a blackout is before it.
-        if self._is_black or retries is None:
+        if self.is_black or retries is None:
             return None
         self._is_free_s = left_s
         if is_datagram and retries:
@@ -100,7 +97,7 @@ class LinkModel:
         """Return when a packet arrives that was due then: infinity while the link is stalled."""
         return math.inf if self._is_stalled else max(due_s, self._resumed_s)
 
-    def stall(self, now_s: float) -> None:
+    def stall(self) -> None:
         """Hold all packets from now on, those in flight included; nothing is lost."""
         self._is_stalled = True
 
@@ -112,12 +109,12 @@ class LinkModel:
 
     def black_out(self) -> None:
         """Lose all packets, those in flight included, without a notification."""
-        if not self._is_black:
-            self._is_black = True
-            self._blackouts += 1
+        if not self.is_black:
+            self.is_black = True
+            self.blackouts += 1
 
     def restore(self) -> None:
-        self._is_black = False
+        self.is_black = False
 
     def _retries(self) -> int | None:
         """Return how often a packet is lost before it arrives; None: always."""

@@ -22,8 +22,6 @@ class LinkRelayError(Exception):
     code = "port_in_use"
 
 
-WINDOW = 16 * 1024
-"""Bytes on their way at most, each way of each connection; more is not read from its sender."""
 CONNECT_S = 30.0
 
 
@@ -49,7 +47,7 @@ class LinkRelay:
 
     ``user_timeout_s`` closes a connection whose bytes have not arrived within that time, as
     TCP_USER_TIMEOUT does for a peer that has set it: the relay's own sockets hide the link from
-    it. ``clock`` gives the time, by default the reactor's.
+    it.
     """
 
     def __init__(
@@ -62,7 +60,6 @@ class LinkRelay:
         down: LinkModel,
         *,
         user_timeout_s: float | None = None,
-        clock: Clock | None = None,
     ) -> None:
         self._reactor = reactor
         self._listen_port = listen_port
@@ -70,10 +67,9 @@ class LinkRelay:
         self._listener: Any = None
         self.up = up
         self.down = down
-        self.window = WINDOW
         self.user_timeout_s = user_timeout_s
-        self.clock: Clock = clock if clock is not None else reactor
-        self._connections: set[RelayedConnection] = set()
+        self.clock: Clock = reactor
+        self.connections: set[RelayedConnection] = set()
         self._idle: Deferred[None] | None = None
 
     @property
@@ -91,21 +87,13 @@ class LinkRelay:
             raise LinkRelayError(text) from error
         return self.port
 
-    @property
-    def connections(self) -> int:
-        return len(self._connections)
-
-    @property
-    def waiting(self) -> int:
-        return sum(each.waiting for each in self._connections)
-
     async def stop(self) -> None:
         listener, self._listener = self._listener, None
         if listener is not None:
             await listener.stopListening()
-        for connection in list(self._connections):
+        for connection in list(self.connections):
             connection.abort()
-        if self._connections:
+        if self.connections:
             self._idle = Deferred()
             await self._idle
 
@@ -113,12 +101,12 @@ class LinkRelay:
         return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
 
     def discard(self, connection: RelayedConnection) -> None:
-        self._connections.discard(connection)
-        if self._idle is not None and not self._connections:
+        self.connections.discard(connection)
+        if self._idle is not None and not self.connections:
             idle, self._idle = self._idle, None
             idle.callback(None)
 
     def _accept(self) -> Protocol:
         connection = RelayedConnection(self)
-        self._connections.add(connection)
+        self.connections.add(connection)
         return connection.near

@@ -18,6 +18,8 @@ from up_simulator.link.stream import LinkStream, Signal
 if TYPE_CHECKING:
     from up_simulator.link.relay import LinkRelay
 
+WINDOW = 16 * 1024
+"""Bytes on their way at most, each way of each connection; more is not read from its sender."""
 SYSTEM_BUFFER = 32 * 1024
 """The system's buffer for a socket of the relay, small enough not to act as part of the link."""
 
@@ -57,11 +59,11 @@ class _End(Protocol):
         if not self.is_connected or self._has_finished:
             return
         transport: Any = self.transport
-        waiting, window = self.outgoing.waiting, self._connection.window
-        if self._is_paused and self.is_open and waiting <= window // 2:
+        waiting = self.outgoing.waiting
+        if self._is_paused and self.is_open and waiting <= WINDOW // 2:
             self._is_paused = False
             transport.resumeProducing()
-        elif not self._is_paused and (waiting >= window or not self.is_open):
+        elif not self._is_paused and (waiting >= WINDOW or not self.is_open):
             self._is_paused = True
             transport.pauseProducing()
 
@@ -136,14 +138,9 @@ class RelayedConnection:
         self._relay = relay
         self._finished = 0
         self._connector: Any = None
-        self.window = relay.window
         self.near, self.far = _End(self), _End(self)
         self.near.outgoing = self.far.incoming = self._stream(relay.up, self._on_up, self.near)
         self.far.outgoing = self.near.incoming = self._stream(relay.down, self._on_down, self.far)
-
-    @property
-    def waiting(self) -> int:
-        return self.near.outgoing.waiting + self.far.outgoing.waiting
 
     def on_made(self, end: _End) -> None:
         if end is self.near:

@@ -141,7 +141,6 @@ class LinkStream:
         self._schedule()
 
     def _deliver_first(self) -> bool:
-        """Deliver the first packet; False: it has not arrived."""
         now_s = self._clock.seconds()
         first = self._packets[0]
         if self._has_vanished(first):
@@ -151,7 +150,7 @@ class LinkStream:
         self._packets.popleft()
         self.waiting -= first.size
         self._progress_s = now_s
-        self._retry_s = self._min_retry_s()
+        self._retry_s = max(MIN_RETRY_S, 4 * self._model.settings.delay_ms / 1000)
         self._retry_at_s = math.inf
         self._deliver(first.content)
         return True
@@ -171,9 +170,6 @@ class LinkStream:
         self._retry_s = min(2 * self._retry_s, MAX_RESET_RETRY_S if is_reset else MAX_RETRY_S)
         self._retry_at_s = now_s + self._retry_s
         return False
-
-    def _min_retry_s(self) -> float:
-        return max(MIN_RETRY_S, 4 * self._model.settings.delay_ms / 1000)
 
     def _schedule(self) -> None:
         self._cancel()

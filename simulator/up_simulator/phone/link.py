@@ -15,7 +15,7 @@ from twisted.protocols.basic import LineOnlyReceiver
 from zope.interface import implementer
 
 from up.protocols.line_decoder import MAX_LINE_BYTES
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.harness.user_log import Log
 from up_simulator.phone.address import NotFoundError, RaspberryPi
 from up_simulator.phone.phone import Phone, Record
@@ -68,7 +68,7 @@ class PythonHandset:
     def __init__(
         self,
         reactor: Any,
-        flight: FlightSource,
+        flight: FlightDynamics,
         find: Find,
         orientation: OrientationBy,
         log: Log,

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode, encode
-from up_simulator.aircraft.flight import Clock, FlightSource, FlightState
+from up.system.clock import Clock
+from up_simulator.aircraft.dynamics import FlightDynamics
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.aircraft.truth import PERIOD_S as TRUTH_S
 from up_simulator.harness.user_log import Log, no_log
 from up_simulator.phone.sensors import PhoneSensors
@@ -46,7 +48,7 @@ class Phone:
 
     def __init__(
         self,
-        flight: FlightSource,
+        flight: FlightDynamics,
         clock: Clock,
         *,
         seed: int = 1,

@@ -102,7 +102,6 @@ class PhoneSensors:
         return {"altitude": round(state.altitude_m + self._noise.gauss(0.0, BAROMETER_M), 2)}
 
     def heading(self, state: FlightState) -> dict[str, Any]:
-        """Return the data of ``up.heading.change``, by the compass."""
         heading_deg = (state.yaw_deg + self._noise.gauss(0.0, COMPASS_DEG)) % 360.0
         return {"heading": round(heading_deg, 1) % 360.0, "mode": "actual"}
 

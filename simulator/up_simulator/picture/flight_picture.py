@@ -6,11 +6,10 @@ import math
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.chart import Background, Mark, Panel, Shade
-from up_flightlog.plots.overview import Line, Overview, overview_png
+from up_flightlog.plots.overview import Line, Overview
 from up_flightlog.plots.track_picture import TrackView, Wind
 from up_simulator.picture.panels import PANELS, SignalPanel
 from up_simulator.picture.series import crash_index, mode_bands, numbers, track
@@ -32,25 +31,6 @@ class Failure:
     text: str
 
 
-def draw_flight(
-    log: FlightLog,
-    path: Path,
-    *,
-    title: str = "",
-    subtitle: str = "",
-    marks: Sequence[Mark] | None = None,
-    failures: Sequence[Failure] = (),
-    wind: Wind | None = None,
-) -> None:
-    """Write the picture of a flight as PNG; the same log gives the same bytes.
-
-    Without ``marks`` the events of the log are marked. Data missing in the log is left out.
-    Raises PictureError (no matplotlib, or nothing to draw) and OSError.
-    """
-    overview = overview_of(log, title, subtitle, marks, failures, wind)
-    path.write_bytes(overview_png(overview))
-
-
 def overview_of(
     log: FlightLog,
     title: str = "",
@@ -59,7 +39,10 @@ def overview_of(
     failures: Sequence[Failure] = (),
     wind: Wind | None = None,
 ) -> Overview:
-    """Return the content of the picture; raises PictureError if there is nothing to draw."""
+    """Return the content of the picture; raises PictureError if there is nothing to draw.
+
+    Without ``marks`` the events of the log are marked. Data missing in the log is left out.
+    """
     times_s = log.numbers("time_s")
     if len(times_s) < 2:
         raise PictureError(f"no picture of a log with {len(times_s)} rows", "too_short")

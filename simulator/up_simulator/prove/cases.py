@@ -9,13 +9,13 @@ from typing import Any
 
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up_simulator.aircraft.motor import charge_at
-from up_simulator.aircraft.start import GROUND_M, START_LATITUDE_DEG, START_LONGITUDE_DEG
+from up_simulator.aircraft.start import GROUND_M, START_LATITUDE_DEG, START_LONGITUDE_DEG, StartPart
+from up_simulator.aircraft.weather import Weather
 from up_simulator.in_process.config_folder import merge
 from up_simulator.prove.judge import WARN, Limits
 from up_simulator.prove.rows import GPS_FAULTS, Row, point_of, row_of
 from up_simulator.prove.setup import Setup
 from up_simulator.scenario.event import CommandPart, Event
-from up_simulator.scenario.initial_conditions import StartPart, WeatherPart
 from up_simulator.scenario.scenario import (
     GroundPart,
     PhonePart,
@@ -258,7 +258,7 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         may_crash=True,
         may_land=limits.may_land,
         start=StartPart(height_m=height_m),
-        weather=WeatherPart(case.wind_m_s, case.from_deg, case.turbulence),  # type: ignore[arg-type]
+        weather=Weather(case.wind_m_s, case.from_deg, case.turbulence),  # type: ignore[arg-type]
         switch=SwitchPart(**setup.switch),  # type: ignore[arg-type]
         profile=files.get("airframe.yml", {}),
         gains=files.get("pids.yml", {}),

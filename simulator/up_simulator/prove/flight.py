@@ -67,7 +67,7 @@ class _Probe:
         self.track.append(
             Sample(
                 time_s, state.north_m - self._north_m, state.east_m - self._east_m, state.height_m,
-                state.airspeed_m_s, state.climb_m_s, mode, self._flight.board_mode,
+                state.airspeed_m_s, mode, self._flight.board_mode,
                 tuple(failsafe.get("active", ())), failsafe.get("cause"),
             )
         )  # fmt: skip

@@ -33,7 +33,6 @@ class Sample:
     east_m: float
     height_m: float
     airspeed_m_s: float
-    climb_m_s: float
     mode: str | None
     board_mode: str
     active: tuple[str, ...] = ()

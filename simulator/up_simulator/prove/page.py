@@ -46,7 +46,6 @@ class Proof:
         return self.is_whole and not self.refusals and not self.failed
 
     def verdict(self) -> str:
-        """Return the result in one sentence."""
         if self.refusals:
             return "This configuration is refused: the aircraft does not arm. Nothing was flown."
         held, flown = len(self.outcomes) - len(self.failed), len(self.outcomes)

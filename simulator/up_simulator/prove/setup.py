@@ -66,10 +66,6 @@ class Setup:
     def trigger(self, code: str) -> dict[str, Any]:
         return dict(self.value("failsafe.yml", code))
 
-    def permits(self, key: str) -> bool:
-        """Return a permission of the airframe without the receiver; the board's default is no."""
-        return bool(self.value("airframe.yml", "receiver_lost", key))
-
 
 def read_setup(folder: Path, airframe: str, controller: str | None) -> Setup:
     """Read and check a configuration folder.

@@ -123,9 +123,9 @@ def read_axis_map(text: str) -> AxisMap:
 class MappedSticks:
     """The sticks of a controller: its events in, pulses out."""
 
-    def __init__(self, axis_map: AxisMap, start: Sticks | None = None) -> None:
+    def __init__(self, axis_map: AxisMap) -> None:
         self._map = axis_map
-        self.now = start or Sticks(aux1=SWITCH_US["FBW"])
+        self.now = Sticks(aux1=SWITCH_US["FBW"])
 
     def take(self, event: JsEvent) -> None:
         for channel, source in self._map.sources.items():

@@ -54,19 +54,17 @@ def choose_radio(
     axis_map: AxisMap,
     *,
     has_motor: bool,
-    is_armed: bool,
     log: Log,
     on_leave: Callable[[], None],
     mode: Callable[[], str] = lambda: "",
 ) -> Radio:
     """Return the radio of a name: circle, script, keyboard, or a game controller's device.
 
-    ``moves`` is a script for the first two; ``is_armed`` returns whether the board is armed before
-    the flight, if ``is_initially_armed`` requires it; ``on_leave`` is called when the keyboard's
-    pilot leaves; ``mode`` returns the board's mode, or nothing. Raises ``RadioError``.
+    ``moves`` is a script for the first two; ``on_leave`` is called when the keyboard's pilot
+    leaves; ``mode`` returns the board's mode, or nothing. Raises ``RadioError``.
     """
     if name == "circle":
-        pilot = CirclingPilot(has_motor=has_motor, is_armed=is_armed, mode=mode)
+        pilot = CirclingPilot(has_motor=has_motor, mode=mode)
         return ScriptedRadio(moves, pilot)
     if name == "script":
         return ScriptedRadio([*read_sticks(BEFORE), *moves])

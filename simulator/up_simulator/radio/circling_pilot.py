@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from up.earth import GRAVITY_M_S2, bearing_deg, distance_m
 from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
 
 HALF_TRAVEL_US = 500
-ARMS_S, CLIMBS_S = 1.0, 2.0
-"""AUX2 rises, unless the board was armed on the ground, and counts after 300 ms; then the motor."""
+RADIUS_M = 80.0
+CRUISE_US = 1530
+"""Throttle that about keeps the height."""
 MAX_BANK_DEG = 28.0
 BANK_PER_COURSE = 0.7
 FULL_BANK_DEG, FULL_UP_DEG, FULL_DOWN_DEG = 50.0, 20.0, 25.0
@@ -29,40 +29,24 @@ SURFACE_US_PER_DEG_S = 3.0
 """Damping by the sticks in ACRO, where they move the surfaces."""
 
 
-@dataclass(frozen=True, slots=True)
-class Circuit:
-    """A circle to the right around the launch: radius, and height above the ground (both m).
-
-    Without a height it is that of the launch. ``cruise_us`` is the throttle that about keeps it.
-    """
-
-    radius_m: float = 80.0
-    height_m: float | None = None
-    cruise_us: int = 1530
-
-
 class CirclingPilot:
     """Moves the sticks so that the aircraft stays near and high, for as long as it flies.
 
     The sticks suit the board's reported mode: ``mode`` returns it, and without a report FBW is
-    assumed. The switch stands at ``switch``. If the board ``is_armed`` already, AUX2 is up from the
-    beginning; otherwise it rises soon, then the throttle. Without a motor the height is not held.
+    assumed. The switch stands at ``switch``, AUX2 is up. Without a motor the height of the launch
+    is not held.
     """
 
     def __init__(
         self,
-        circuit: Circuit | None = None,
         *,
         switch: str = "AUTO",
         has_motor: bool = True,
-        is_armed: bool = True,
         mode: Callable[[], str] = lambda: "",
     ) -> None:
         self._mode = mode
-        self._circuit = circuit or Circuit()
         self._switch_us = SWITCH_US[switch]
         self._has_motor = has_motor
-        self._arms_s, self._climbs_s = (0.0, 0.0) if is_armed else (ARMS_S, CLIMBS_S)
         self._home: FlightState | None = None
         self._newest: FlightState | None = None
         self._climb_m_s = 0.0
@@ -71,16 +55,15 @@ class CirclingPilot:
         if self._home is None:
             self._home = state
         self._watch_climb(state)
-        wanted_m = self._home.height_m if self._circuit.height_m is None else self._circuit.height_m
-        low_m = wanted_m - state.height_m
+        low_m = self._home.height_m - state.height_m
         bank_deg, pitch_deg = self._bank_deg(self._home, state), self._pitch_deg(low_m)
         ailerons_us, elevator_us = _right_stick(self._mode(), bank_deg, pitch_deg, state)
         return Sticks(
             ailerons=ailerons_us,
             elevator=elevator_us,
-            throttle=self._throttle_us(low_m) if time_s >= self._climbs_s else LOWEST_US,
+            throttle=self._throttle_us(low_m),
             aux1=self._switch_us,
-            aux2=HIGHEST_US if time_s >= self._arms_s else LOWEST_US,
+            aux2=HIGHEST_US,
         )
 
     def close(self) -> None:
@@ -89,11 +72,10 @@ class CirclingPilot:
     def _bank_deg(self, home: FlightState, state: FlightState) -> float:
         here = (home.latitude_deg, home.longitude_deg, state.latitude_deg, state.longitude_deg)
         away_m = distance_m(*here)
-        radius_m = self._circuit.radius_m
-        inward_deg = math.degrees(math.atan((away_m - radius_m) / radius_m * 2.0))
+        inward_deg = math.degrees(math.atan((away_m - RADIUS_M) / RADIUS_M * 2.0))
         course_deg = bearing_deg(*here) + 90.0 + max(-80.0, min(85.0, inward_deg))
         off_deg = (course_deg - state.track_deg + 180.0) % 360.0 - 180.0
-        turn_deg = math.degrees(math.atan(state.speed_m_s**2 / (GRAVITY_M_S2 * radius_m)))
+        turn_deg = math.degrees(math.atan(state.speed_m_s**2 / (GRAVITY_M_S2 * RADIUS_M)))
         # Far away the way home is straight.
         share = max(0.0, 1.0 - abs(inward_deg) / 80.0)
         bank_deg = turn_deg * share + BANK_PER_COURSE * off_deg
@@ -107,7 +89,7 @@ class CirclingPilot:
     def _throttle_us(self, low_m: float) -> int:
         if not self._has_motor:
             return LOWEST_US
-        asked_us = self._circuit.cruise_us + THROTTLE_US_PER_M * low_m
+        asked_us = CRUISE_US + THROTTLE_US_PER_M * low_m
         asked_us -= THROTTLE_US_PER_M_S * self._climb_m_s
         return round(max(LOWEST_US, min(MAX_THROTTLE_US, asked_us)))
 

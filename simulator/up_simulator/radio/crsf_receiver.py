@@ -49,7 +49,6 @@ def _frame(type_: int, payload: bytes) -> bytes:
 
 
 def _crc(data: bytes) -> int:
-    """Return the CRC-8 of DVB-S2."""
     crc = 0
     for byte in data:
         crc ^= byte

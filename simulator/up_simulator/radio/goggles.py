@@ -38,7 +38,6 @@ class Goggles:
         self.shown = self._rows()
 
     def exchange(self, line: Line) -> None:
-        """Take what has arrived at this end of the line."""
         self.feed(line.read(0.0, READ_BYTES))
 
     def feed(self, data: bytes) -> None:

@@ -108,7 +108,6 @@ class KeyboardSticks:
         return self._sticks
 
     def _centre(self, time_s: float) -> None:
-        """Recentre the sticks whose keys have been released for a while."""
         for channel, pressed_s in self._pressed_s.items():
             released_s = max(pressed_s + HOLD_S, self._now_s)
             if time_s <= released_s:

@@ -24,25 +24,24 @@ class KeyboardRadio:
     def __init__(
         self,
         on_leave: Callable[[], None],
-        terminal: KeyTerminal | None = None,
         start: Sticks | None = None,
         mode: Callable[[], str] = lambda: "",
     ) -> None:
-        self._terminal = terminal or KeyTerminal()
+        self._terminal = KeyTerminal()
         self._keys = KeyReader()
         self._keyboard = KeyboardSticks(start)
         self._on_leave = on_leave
         self._mode = mode
         self._is_left = False
         self._shown_s = float("-inf")
-        self.echo(HELP)
+        self._terminal.echo(HELP)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
         for key in self._waiting():
             if key == "q":
                 self._leave()
             elif key == "?":
-                self.echo(HELP)
+                self._terminal.echo(HELP)
             else:
                 self._keyboard.press(key, time_s)
         sticks = self._keyboard.sticks(time_s)
@@ -50,9 +49,6 @@ class KeyboardRadio:
             self._shown_s = time_s
             self._terminal.show(status_line(sticks, state, self._mode()))
         return sticks
-
-    def echo(self, text: str) -> None:
-        self._terminal.echo(text)
 
     def close(self) -> None:
         self._terminal.leave()

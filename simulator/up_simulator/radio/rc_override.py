@@ -44,9 +44,8 @@ class RadioLink:
     another radio has the sticks.
     """
 
-    def __init__(self, path: Path, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, path: Path) -> None:
         self._path = path
-        self._clock = clock
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         # Linux chooses a name, which leaves no file behind.
         self._socket.bind("")
@@ -61,7 +60,7 @@ class RadioLink:
         if self.snapshot.is_taken_by_other:
             self._socket.close()
             raise RadioError(TAKEN, "sticks_taken")
-        self._last_rx_s = clock()
+        self._last_rx_s = time.monotonic()
 
     def exchange(self, datagram: bytes) -> Snapshot:
         self._send(datagram)
@@ -72,10 +71,10 @@ class RadioLink:
                 break
             except ValueError:
                 continue
-            self._last_rx_s = self._clock()
+            self._last_rx_s = time.monotonic()
         if self.snapshot.is_taken_by_other:
             raise RadioError(TAKEN, "sticks_taken")
-        if self._clock() - self._last_rx_s > TIMEOUT_S:
+        if time.monotonic() - self._last_rx_s > TIMEOUT_S:
             raise RadioError("the aircraft no longer answers", "aircraft_silent")
         return self.snapshot
 

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from up.errors import UserError
 from up_simulator.aircraft.flight import FlightState
-from up_simulator.firmware.board import Channel
+from up_simulator.firmware.board import Channel, FirmwareBoard
 
 LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
 SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
@@ -56,20 +56,10 @@ class Radio(Protocol):
         """Release the terminal, the device or the socket."""
 
 
-class ReceivingBoard(Protocol):
-    """The board's end of the radio."""
-
-    def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Set the pulse of a channel."""
-
-    def set_receiver(self, is_on: bool) -> None:
-        """Switch the pulses of all channels on or off."""
-
-
 class Transmitter:
     """Sends sticks to a receiver; only changes are sent."""
 
-    def __init__(self, receiver: ReceivingBoard) -> None:
+    def __init__(self, receiver: FirmwareBoard) -> None:
         self._receiver = receiver
         self._sent: Sticks | None = None
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from up_simulator.radio.sticks import RadioError
 
+KEYS, PICTURE = 0, 1
 _OFF = b"\x00"
 _ITEM = re.compile(r"\S+(?: \S+)* {2,}")
 
@@ -24,27 +25,25 @@ class KeyTerminal:
     ``RadioError`` without a terminal.
     """
 
-    def __init__(self, keys: int = 0, picture: int = 1) -> None:
-        self._keys = keys
-        self._picture = picture
+    def __init__(self) -> None:
         self._is_shown = False
         try:
-            self._saved: Any = termios.tcgetattr(keys)
+            self._saved: Any = termios.tcgetattr(KEYS)
         except termios.error:
             raise RadioError("the keyboard needs a terminal", "no_terminal") from None
         atexit.register(self.leave)
-        tty.setcbreak(keys, termios.TCSANOW)
-        settings = termios.tcgetattr(keys)
+        tty.setcbreak(KEYS, termios.TCSANOW)
+        settings = termios.tcgetattr(KEYS)
         # Suspended, the aircraft would stand still in the air and the shell without an echo.
         settings[6][termios.VSUSP] = _OFF
-        termios.tcsetattr(keys, termios.TCSANOW, settings)
+        termios.tcsetattr(KEYS, termios.TCSANOW, settings)
 
     def fileno(self) -> int:
-        return self._keys
+        return KEYS
 
     def read(self) -> bytes:
         try:
-            return os.read(self._keys, 256)
+            return os.read(KEYS, 256)
         except OSError:
             return b""
 
@@ -68,17 +67,17 @@ class KeyTerminal:
         if self._is_shown:
             self._write("\n")
         with suppress(termios.error):
-            termios.tcsetattr(self._keys, termios.TCSAFLUSH, saved)
+            termios.tcsetattr(KEYS, termios.TCSAFLUSH, saved)
 
     def _columns(self) -> int:
         try:
-            return os.get_terminal_size(self._picture).columns or 80
+            return os.get_terminal_size(PICTURE).columns or 80
         except OSError:
             return 80
 
     def _write(self, text: str) -> None:
         with suppress(OSError):
-            os.write(self._picture, text.encode("utf-8", "replace"))
+            os.write(PICTURE, text.encode("utf-8", "replace"))
 
 
 def wrapped(line: str, columns: int) -> str:

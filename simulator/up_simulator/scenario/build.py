@@ -7,8 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from up_flightlog.read.demand import DemandModel
-from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
-from up_simulator.aircraft import Gust as AirGust
+from up_simulator.aircraft import Airframe, FlightDynamics, Start, load_airframe
 from up_simulator.aircraft.model import fall_back_note
 from up_simulator.betaflight.board import BetaflightBoard
 from up_simulator.betaflight.world import BetaflightWorld
@@ -37,7 +36,7 @@ def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> Sce
     dynamics = FlightDynamics(
         airframe,
         start=_start(scenario),
-        weather=_weather(scenario),
+        weather=scenario.weather,
         seed=scenario.seed,
         may_land=scenario.may_land,
         model=scenario.model,
@@ -127,20 +126,6 @@ def _start(scenario: Scenario) -> Start:
         values["throttle"] = min(1.0, max(0.0, sticks["throttle"] / 1000 - 1)) if runs else 0.0
     throws = (event.throw for event in scenario.events if event.throw is not None)
     return Start(**values, throw_m_s=next(throws, None))
-
-
-def _weather(scenario: Scenario) -> Weather:
-    weather = scenario.weather
-    gusts = tuple(
-        AirGust(gust.at_s, gust.duration_s, gust.north_m_s, gust.east_m_s, gust.down_m_s)
-        for gust in weather.gusts
-    )
-    return Weather(
-        wind_m_s=weather.wind_m_s,
-        wind_from_deg=weather.wind_from_deg,
-        turbulence=weather.turbulence,
-        gusts=gusts,
-    )
 
 
 CORRUPTION_INTERVAL = 7

@@ -148,7 +148,6 @@ class Event:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing and the surplus keys."""
         kinds = self.kinds
         if not kinds:
             yield "at_s", "contains no event: set one of " + ", ".join(EVENT_KINDS)

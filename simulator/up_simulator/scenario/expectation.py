@@ -115,7 +115,6 @@ class Expectation:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield keys that are missing, surplus or of the wrong kind."""
         if not self.name:
             yield "name", "must be a sentence that states the expectation"
         if self.signal:

@@ -77,7 +77,7 @@ class ScenarioFlight:
         self._sampler = Sampler(
             world, board, demand, participants, has_flight_computer=scenario.has_arduino
         )
-        board.after_slice = self._exchange
+        board.after_slice = participants.exchange
         board.on_command = self._on_command
 
     @property
@@ -86,7 +86,6 @@ class ScenarioFlight:
 
     @property
     def state(self) -> FlightState:
-        """Return the true state of the aircraft."""
         return self._world.state
 
     @property
@@ -190,9 +189,6 @@ class ScenarioFlight:
                 " programs are not valid",
             )
 
-    def _exchange(self) -> None:
-        self.participants.exchange(STEP_S)
-
     def _on_command(self, command: Command) -> None:
         if command.type in "SR" and len(command.payload) == _SETPOINT.size:
             self._demand.setpoint = setpoint_of(command.payload)
@@ -271,7 +267,7 @@ class ScenarioFlight:
                 pending.poll(self.participants.ground, time_s)
 
     def _check_crash(self, time_s: float) -> None:
-        crash: str | None = getattr(self._world.dynamics, "crash", None)
+        crash = self._world.dynamics.crash
         if crash is not None and self.record.crash is None:
             self.record.crash = crash
             self.record.crash_s = time_s

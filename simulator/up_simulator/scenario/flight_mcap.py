@@ -112,7 +112,6 @@ class _FlightFile:
             self._writer.add_attachment(f"config/{file}", "text/yaml", text.encode(), BEGIN_NS)
 
     def _write_events_until(self, time_s: float) -> None:
-        """Write the events, and the Commands from the ground."""
         while self._events and self._events[0][0] <= time_s:
             at_s, event = self._events.pop(0)
             code = self._event_codes.get(event, event)

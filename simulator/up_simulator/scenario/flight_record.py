@@ -79,7 +79,6 @@ class FlightRecord:
 
     @property
     def speed(self) -> float:
-        """Return how many times faster than real time it was."""
         return self.flown_s / self.took_s if self.took_s > 0 else 0.0
 
     @property

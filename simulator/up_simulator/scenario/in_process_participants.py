@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
+from up_simulator.harness.world import STEP_S
 from up_simulator.in_process.config_folder import (
     CRSF_PORT,
     GOGGLES_PORT,
@@ -42,7 +43,7 @@ class InProcessParticipants(DaemonParticipants):
     def __init__(
         self,
         scenario: Scenario,
-        flight: FlightSource,
+        flight: FlightDynamics,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
     ) -> None:
@@ -88,7 +89,7 @@ class InProcessParticipants(DaemonParticipants):
     def seconds(self) -> float:
         return float(self._reactor.seconds())
 
-    def exchange(self, step_s: float) -> None:
+    def exchange(self) -> None:
         self._daemon.pump(self.board)
         if self.receiver is not None:
             self.receiver.exchange(self._daemon.gps_line, self._flight.state)
@@ -99,7 +100,7 @@ class InProcessParticipants(DaemonParticipants):
         if self.scenario.sensors and self.seconds() >= self._i2c_due_s:
             self._i2c_due_s = self.seconds() + I2C_PERIOD_S
             self._daemon.i2c.update(self._flight.state)
-        self._reactor.advance(step_s)
+        self._reactor.advance(STEP_S)
         self.check_raspilot()
 
     def plug_serial(self, is_in: bool) -> None:

@@ -1,10 +1,9 @@
-"""The initial conditions of a scenario's flight and its environment."""
+"""The environment of a scenario's flight: radio, IMU and link."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from up.config import items, key, section
 from up.fields import Constraint
@@ -15,66 +14,6 @@ from up_simulator.link.model import LinkSettings
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")
-
-
-def _rate(comment: str) -> float:
-    return key(0.0, comment, unit="deg/s", minimum=-720, maximum=720)
-
-
-@dataclass(frozen=True, slots=True)
-class StartPart:
-    """Initial state in the air, at 0 s."""
-
-    height_m: float = key(120.0, "Above the ground.", unit="m", minimum=1, maximum=5000)
-    airspeed_m_s: float | None = key(
-        None, "null: the cruise speed of the airframe.", unit="m/s", minimum=3, maximum=80
-    )
-    roll_deg: float = key(0.0, "Right wing down positive.", unit="deg", minimum=-180, maximum=180)
-    pitch_deg: float | None = key(
-        None, "Nose up positive. null: that of the airframe.", unit="deg", minimum=-85, maximum=85
-    )
-    heading_deg: float = key(0.0, "0 is north, 90 east.", unit="deg", minimum=0, maximum=360)
-    climb_m_s: float | None = key(
-        None,
-        "Through the air, up positive. null: the climb of the airframe at this pitch.",
-        unit="m/s",
-        minimum=-60,
-        maximum=30,
-    )
-    roll_rate_deg_s: float = _rate("Initial roll rate, right wing down positive.")
-    pitch_rate_deg_s: float = _rate("Initial pitch rate, nose up positive.")
-    yaw_rate_deg_s: float = _rate("Initial yaw rate, clockwise from above positive.")
-    throttle: float | None = key(
-        None,
-        "Initial motor throttle. null: that of the throttle stick at 0 s.",
-        minimum=0,
-        maximum=1,
-    )
-
-
-@dataclass(frozen=True, slots=True)
-class Gust:
-    """A gust: moving air that rises and fades as (1 - cos)."""
-
-    at_s: float = key(0.0, "Start time.", unit="s", minimum=0, maximum=3600)
-    duration_s: float = key(1.0, "Duration.", unit="s", minimum=0.02, maximum=600)
-    north_m_s: float = key(0.0, "Speed to the north.", unit="m/s", minimum=-30, maximum=30)
-    east_m_s: float = key(0.0, "Speed to the east.", unit="m/s", minimum=-30, maximum=30)
-    down_m_s: float = key(0.0, "Speed down.", unit="m/s", minimum=-30, maximum=30)
-
-
-@dataclass(frozen=True, slots=True)
-class WeatherPart:
-    """Wind, turbulence and gusts."""
-
-    wind_m_s: float = key(0.0, "Wind speed.", unit="m/s", minimum=0, maximum=30)
-    wind_from_deg: float = key(
-        180.0, "Direction that the wind comes from: 0 is north.", unit="deg", minimum=0, maximum=360
-    )
-    turbulence: Literal["none", "light", "moderate", "severe"] = key(
-        "none", "Spectrum of MIL-F-8785C, different for every seed."
-    )
-    gusts: tuple[Gust, ...] = items(Gust, "Single gusts.", max_length=100)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,31 +93,8 @@ class ImuPart:
 
 
 @dataclass(frozen=True, slots=True)
-class LinkSettingsPart:
-    """One direction of the link between aircraft and ground."""
-
-    delay_ms: float = key(0.0, "Transit time of each packet.", unit="ms", minimum=0, maximum=60_000)
-    jitter_ms: float = key(
-        0.0, "Maximum random additional transit time.", unit="ms", minimum=0, maximum=60_000
-    )
-    loss_percent: float = key(
-        0.0,
-        "Share of lost packets; TCP retransmits them.",
-        unit="%",
-        minimum=0,
-        maximum=100,
-    )
-    rate_bytes_s: float = key(
-        0.0, "Maximum bytes per second; 0: unlimited.", unit="B/s", minimum=0, maximum=1e9
-    )
-
-    def settings(self) -> LinkSettings:
-        return LinkSettings(self.delay_ms, self.jitter_ms, self.loss_percent, self.rate_bytes_s)
-
-
-@dataclass(frozen=True, slots=True)
 class LinkPart:
     """The link between aircraft and ground, such as a cellular network."""
 
-    up: LinkSettingsPart = section(LinkSettingsPart, "From the aircraft to the ground.")
-    down: LinkSettingsPart = section(LinkSettingsPart, "From the ground to the aircraft.")
+    up: LinkSettings = section(LinkSettings, "From the aircraft to the ground.")
+    down: LinkSettings = section(LinkSettings, "From the ground to the aircraft.")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import csv
-import io
 import math
 import sys
 from array import array
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 from up_simulator.scenario.signals import EVENT_COLUMN, Kind, signal_of
 
@@ -23,13 +22,12 @@ class LogError(Exception):
     """A file is not a flight log: the message is one sentence with file and line.
 
     ``code`` is ``not_readable``, ``not_a_log``, ``duplicate_column``, ``row_length`` or
-    ``not_a_number``; ``line`` is 0 for the whole file.
+    ``not_a_number``; a ``line`` of 0 is the whole file.
     """
 
     def __init__(self, path: Path, line: int, code: str, text: str) -> None:
         super().__init__(f"{path}:{line}: {text}" if line else f"{path}: {text}")
         self.code = code
-        self.line = line
 
 
 class FlightLog:
@@ -107,19 +105,11 @@ class FlightLog:
             found += [(time_s, name) for name in str(cell).split(EVENT_SEPARATOR) if name]
         return found
 
-    def text(self) -> str:
-        into = io.StringIO()
-        self._write(into)
-        return into.getvalue()
-
     def write(self, path: Path) -> None:
         with path.open("w", encoding="utf-8", newline="") as file:
-            self._write(file)
-
-    def _write(self, into: TextIO) -> None:
-        writer = csv.writer(into, lineterminator="\n")
-        writer.writerow(self.columns)
-        writer.writerows([_cell(value) for value in row] for row in self.rows)
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(self.columns)
+            writer.writerows([_cell(value) for value in row] for row in self.rows)
 
 
 EVENT_SEPARATOR = "; "

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import operator
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -114,28 +115,19 @@ def _is(expectation: Expectation, window: Window) -> Verdict:
 
 def _becomes(expectation: Expectation, window: Window) -> Verdict:
     wanted = _wanted(expectation)
-    return _first_time(expectation, window, lambda value: value == wanted)
+    row = window.values.index(wanted) if wanted in window.values else None
+    return _timed(expectation, window, row)
 
 
-def _becomes_below(expectation: Expectation, window: Window) -> Verdict:
-    limit = _float(expectation.becomes_below)
-    return _first_time(
-        expectation, window, lambda value: isinstance(value, float) and value <= limit
+def _reaches(expectation: Expectation, window: Window) -> Verdict:
+    limit = _float(getattr(expectation, expectation.kind))
+    is_reached = operator.le if expectation.kind == "becomes_below" else operator.ge
+    rows = (
+        row
+        for row, value in enumerate(window.values)
+        if isinstance(value, float) and is_reached(value, limit)
     )
-
-
-def _becomes_above(expectation: Expectation, window: Window) -> Verdict:
-    limit = _float(expectation.becomes_above)
-    return _first_time(
-        expectation, window, lambda value: isinstance(value, float) and value >= limit
-    )
-
-
-def _first_time(
-    expectation: Expectation, window: Window, is_reached: Callable[[Value], bool]
-) -> Verdict:
-    reached = [at for at, value in enumerate(window.values) if is_reached(value)]
-    return _timed(expectation, window, reached[0] if reached else None)
+    return _timed(expectation, window, next(rows, None))
 
 
 def _settles(expectation: Expectation, window: Window) -> Verdict:
@@ -159,8 +151,6 @@ _Measure = Callable[[Expectation, Window], Verdict]
 
 
 def _known(measure: _Measure) -> _Measure:
-    """Restrict a measure to windows in which every value is known."""
-
     def measure_known(expectation: Expectation, window: Window) -> Verdict:
         unknown_s = window.unknown_s()
         if unknown_s is None:
@@ -193,8 +183,8 @@ MEASURES: dict[str, _Measure] = {
     "is_": _is,
     "is_not": _known(_is),
     "becomes": _becomes,
-    "becomes_below": _becomes_below,
-    "becomes_above": _becomes_above,
+    "becomes_below": _reaches,
+    "becomes_above": _reaches,
     "settles_between": _settles,
     "changes_below": _known_once(_changes),
     "changes_above": _known_once(_changes),

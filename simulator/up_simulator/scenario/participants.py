@@ -59,8 +59,8 @@ class Participants:
         """Return whether the flight may begin: all expected participants have connected."""
         return True
 
-    def exchange(self, step_s: float) -> None:
-        """Pass bytes and advance by this time; raises ParticipantError when one has died.
+    def exchange(self) -> None:
+        """Pass bytes and advance by a step; raises ParticipantError when one has died.
 
         Here: listen, and request the streams again after a reset, which ends them.
         """
@@ -106,14 +106,6 @@ class DaemonParticipants(Participants, ABC):
             self.goggles = Goggles(*map(int, scenario.goggles.split("x")))
         self._ready_s: float | None = None
         self._should_run = False
-
-    @abstractmethod
-    def seconds(self) -> float:
-        """Return the participants' time."""
-
-    @abstractmethod
-    def exchange(self, step_s: float) -> None:
-        """Pass bytes and advance by this time; raises ParticipantError when one has died."""
 
     @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
@@ -235,15 +227,14 @@ class DaemonParticipants(Participants, ABC):
         self._set_link(self.scenario.link)
 
     def _set_link(self, link: LinkPart) -> None:
-        self.up.settings = link.up.settings()
-        self.down.settings = link.down.settings()
+        self.up.settings, self.down.settings = link.up, link.down
 
     def _fail_link(self, kind: str) -> None:
         for model in (self.up, self.down):
             if kind == "blackout":
                 model.black_out()
             elif kind == "stall":
-                model.stall(self.seconds())
+                model.stall()
             else:
                 model.restore()
                 model.resume(self.seconds())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
-from up_simulator.aircraft.flight import FlightSource
+from up_simulator.aircraft.dynamics import FlightDynamics
 from up_simulator.betaflight.packets import LINE as BETAFLIGHT_LINE
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.ports import choose_port_sets
@@ -18,7 +18,7 @@ from up_simulator.harness.two_paths import (
     TwoPaths,
     check_paths,
 )
-from up_simulator.harness.world import BYTES_A_STEP
+from up_simulator.harness.world import BYTES_A_STEP, STEP_S
 from up_simulator.in_process.config_folder import mavlink_file, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.mavlink_ground import MavlinkGround
@@ -52,7 +52,7 @@ class RealParticipants(DaemonParticipants):
     def __init__(
         self,
         scenario: Scenario,
-        flight: FlightSource,
+        flight: FlightDynamics,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
     ) -> None:
@@ -95,7 +95,7 @@ class RealParticipants(DaemonParticipants):
             self._proxy.wait_for_ports()
         super().start()
 
-    def exchange(self, step_s: float) -> None:
+    def exchange(self) -> None:
         line = self._line
         if line is not None:
             data = line.read(0.0, BYTES_A_STEP)
@@ -108,7 +108,7 @@ class RealParticipants(DaemonParticipants):
             self.receiver.exchange(self._receiver_line, self._flight.state)
         if self.goggles is not None and self._goggles_line is not None:
             self.goggles.exchange(self._goggles_line)
-        self._reactor.advance(step_s)
+        self._reactor.advance(STEP_S)
         self.check_raspilot()
 
     def check_raspilot(self) -> None:
@@ -267,7 +267,7 @@ class RealParticipants(DaemonParticipants):
             self._reactor.link(before.ground, up=self.down, down=self.up)
             self.ground = InProcessGround(reactor, before.ground, seed=seed)
 
-    def _make_phone(self, flight: FlightSource) -> None:
+    def _make_phone(self, flight: FlightDynamics) -> None:
         part = self.scenario.phone
         if part is None:
             return

@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from up_flightlog.plots.canvas import PictureError
+from up_flightlog.plots.overview import overview_png
 from up_flightlog.plots.track_picture import Wind
 from up_simulator.aircraft import AirframeError
 from up_simulator.aircraft.flight import FlightUnavailableError
@@ -20,7 +21,7 @@ from up_simulator.firmware.preparation import PreparationError, SettingsError
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import interrupts_between_steps
 from up_simulator.harness.two_paths import PathsUnavailableError
-from up_simulator.picture.flight_picture import draw_flight
+from up_simulator.picture.flight_picture import overview_of
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
 from up_simulator.scenario.flight_record import FlightRecord
@@ -76,14 +77,6 @@ class Files:
             self.trouble = self.trouble or f"{path} is not written: {error.strerror or error}"
             return False
         return True
-
-
-@dataclass(frozen=True, slots=True)
-class Output:
-    """The folder of the files; None: no files. Pictures are optional."""
-
-    folder: Path | None
-    has_picture: bool = True
 
 
 class CannotFlyError(Exception):
@@ -145,12 +138,11 @@ def try_folder(folder: Path) -> None:
         file.write(bytes(4096))
 
 
-def write_files(name: str, result: Result, output: Output, notify: Notify) -> Files:
+def write_files(
+    name: str, result: Result, folder: Path, notify: Notify, *, has_picture: bool
+) -> Files:
     """Write logs, picture, summary and report, each if it can be."""
     files = Files()
-    folder = output.folder
-    if folder is None:
-        return files
     folder.mkdir(parents=True, exist_ok=True)
     logs = [(LOG, result.record.log)]
     if result.control is not None:
@@ -162,7 +154,7 @@ def write_files(name: str, result: Result, output: Output, notify: Notify) -> Fi
     if files.put(flight_log, lambda path: write_flight(name, result, path)):
         files.written.append(flight_log)
     _write_black_boxes(result.record.black_boxes, folder / BLACK_BOXES, files)
-    if output.has_picture and len(result.record.log):
+    if has_picture and len(result.record.log):
         _draw(result, folder / PICTURE, files, notify)
     for path in (folder / CONTROL_LOG, folder / PICTURE):
         if path not in files.written:
@@ -194,18 +186,16 @@ def _write_below(data: bytes, path: Path) -> None:
 def _draw(result: Result, path: Path, files: Files, notify: Notify) -> None:
     record = result.record
     weather = record.scenario.weather
-    failures = list(failed_parts(result))
-
-    draw = partial(
-        draw_flight,
-        record.log,
-        title=record.scenario.title,
-        subtitle=_subtitle(record),
-        failures=failures,
-        wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
-    )
     try:
-        if files.put(path, draw):
+        overview = overview_of(
+            record.log,
+            title=record.scenario.title,
+            subtitle=_subtitle(record),
+            failures=list(failed_parts(result)),
+            wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
+        )
+        picture = overview_png(overview)
+        if files.put(path, lambda path: path.write_bytes(picture)):
             files.written.append(path)
     except PictureError as error:
         notify(str(error))

@@ -9,7 +9,8 @@ from typing import Any
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
 from up.earth import distance_m
 from up_flightlog.read.demand import DemandModel
-from up_simulator.aircraft.flight import Dynamics, FlightState
+from up_simulator.aircraft.dynamics import FlightDynamics
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.world import World
 from up_simulator.in_process.ground import InProcessGround
@@ -147,11 +148,11 @@ def _wrapped(difference: float, name: str) -> float:
     return (difference + 180.0) % 360.0 - 180.0 if name == "roll_deg" else difference
 
 
-def _truth(dynamics: Dynamics) -> Iterable[tuple[str, Any]]:
+def _truth(dynamics: FlightDynamics) -> Iterable[tuple[str, Any]]:
     state = dynamics.state
     for name, attribute in _TRUTH:
         yield name, getattr(state, attribute)
-    yield "truth.crashed", getattr(dynamics, "crash", None) is not None
+    yield "truth.crashed", dynamics.crash is not None
 
 
 def _board(tap: LineMonitor, now_s: float) -> Iterable[tuple[str, Any]]:

@@ -9,15 +9,11 @@ from typing import Any, Literal
 from up.config import items, key, mapping, section
 from up.fields import Constraint
 from up_simulator.aircraft.model import ModelChoice
+from up_simulator.aircraft.start import StartPart
+from up_simulator.aircraft.weather import Weather
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.expectation import Expectation
-from up_simulator.scenario.initial_conditions import (
-    ImuPart,
-    LinkPart,
-    ReceiverPart,
-    StartPart,
-    WeatherPart,
-)
+from up_simulator.scenario.initial_conditions import ImuPart, LinkPart, ReceiverPart
 from up_simulator.scenario.sticks import StickPoint
 from up_simulator.sensors.chips import CHIPS
 
@@ -163,7 +159,7 @@ class Scenario:
         " bank and of pitch. The aircraft then slides and stops.",
     )
     start: StartPart = section(StartPart)
-    weather: WeatherPart = section(WeatherPart)
+    weather: Weather = section(Weather)
     imu: ImuPart = section(ImuPart)
     receiver: ReceiverPart = section(ReceiverPart)
     switch: SwitchPart = section(SwitchPart)
@@ -247,5 +243,4 @@ class Scenario:
 
     @property
     def has_raspilot(self) -> bool:
-        """Return whether there is a Raspberry Pi aboard."""
         return self.raspilot.runs != "no"

@@ -33,11 +33,8 @@ class _Shape:
     """A curve normalised to its travel: 0 at its beginning, 1 at rest."""
 
     final: float
-    peak: float
     rise_time_s: float | None
     """From 10 to 90 % of the way."""
-    delay_s: float | None
-    """From the step to 10 % of the way."""
     overshoot_percent: float
     settling_time_s: float | None
     """After this it stays within 5 % of the way from ``final``; ``None``: it rings or drifts."""
@@ -62,9 +59,7 @@ class _Shape:
         low_s, high_s = _reached_s(after_s, parts, 0.1), _reached_s(after_s, parts, 0.9)
         return cls(
             final=final,
-            peak=begin + greatest * way,
             rise_time_s=None if low_s is None or high_s is None else high_s - low_s,
-            delay_s=low_s,
             overshoot_percent=max(0.0, 100 * (greatest - 1)),
             settling_time_s=_settled_s(after_s, parts),
             swings=_swings(parts),
@@ -138,10 +133,6 @@ def _check(
     end: float,
     until_s: float | None,
 ) -> None:
-    if len(times_s) != len(values):
-        raise StepError(
-            f"{len(times_s)} times do not go with {len(values)} values", "lengths_differ"
-        )
     for name, number in (("at_s", at_s), ("start", start), ("end", end), ("until_s", until_s)):
         if number is not None and not math.isfinite(number):
             raise StepError(f"{name} is not a finite number: {number}", "not_finite")

@@ -5,24 +5,11 @@ from __future__ import annotations
 import errno
 from collections.abc import Callable, Iterable
 from random import Random
-from typing import Any, Protocol
+from typing import Any
 
 from up_simulator.aircraft.flight import FlightState
 
 I2C_READ = 1
-
-
-class Chip(Protocol):
-    """A chip as the bus sees it: what the master writes, and what it reads then."""
-
-    def write(self, data: bytes) -> None:
-        """Take the bytes of a write; raises OSError for one that is not acknowledged."""
-
-    def read(self, count: int) -> bytes:
-        """Return the bytes of a read."""
-
-    def update(self, state: FlightState) -> None:
-        """Measure the flight."""
 
 
 class RegisterChip:
@@ -51,7 +38,6 @@ class RegisterChip:
         return self.registers[register]
 
     def put(self, register: int, data: Iterable[int]) -> None:
-        """Set registers from one on."""
         for at, value in enumerate(data):
             self.registers[register + at] = value
 
@@ -62,7 +48,7 @@ class RegisterChip:
 class TwinBus:
     """The chips by their addresses. ``fails`` makes every transfer fail, as a short circuit."""
 
-    def __init__(self, chips: dict[int, Chip]) -> None:
+    def __init__(self, chips: dict[int, RegisterChip]) -> None:
         self.chips = chips
         self.is_open = True
         self.fails: Callable[[], bool] = lambda: False
@@ -91,7 +77,7 @@ class TwinBus:
         for chip in self.chips.values():
             chip.update(state)
 
-    def _chip(self, address: int) -> Chip:
+    def _chip(self, address: int) -> RegisterChip:
         if self.fails():
             raise OSError(errno.EIO, "Input/output error")
         if address not in self.chips:

@@ -72,7 +72,6 @@ class UbxReceiver:
         return b"".join(self._answer(*message) for message in _messages(self._input))
 
     def poll(self, state: FlightState) -> bytes:
-        """Return what it sends at this moment of the flight."""
         if not self.is_set_up:
             return b""
         data = self._gps.location(state)
@@ -141,7 +140,6 @@ def _messages(buffer: bytearray) -> Iterator[tuple[tuple[int, int], bytes]]:
 
 
 def _values(payload: bytes) -> Iterator[tuple[int, int]]:
-    """Yield the keys of VALSET and their values."""
     at = 4
     while at + 4 < len(payload):
         key = int.from_bytes(payload[at : at + 4], "little")

@@ -14,15 +14,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
-from up.config import ConfigErrors
 from up.fields import printable
-from up.output import StatusLine, print_problems
+from up.output import StatusLine
 from up.system.death_signal import request_death_signal
 from up_simulator.aircraft.model import MODEL_HELP, MODELS
 from up_simulator.betaflight.board import find_program
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.harness.two_paths import PathsUnavailableError, check_paths
-from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.verbs.catalogue import (
@@ -30,9 +28,9 @@ from up_simulator.verbs.catalogue import (
     INTERRUPTED,
     NOT_HELD,
     WRONG_INPUT,
-    name_of,
-    no_such_tag,
+    scenarios_in,
     shipped_paths,
+    tagged,
     verb_parser,
 )
 from up_simulator.verbs.fly import try_output
@@ -70,7 +68,7 @@ class Job:
 
     @property
     def name(self) -> str:
-        return name_of(self.path)
+        return self.path.stem
 
     def start(self, options: argparse.Namespace) -> None:
         # A summary of an earlier run must not be taken for this one's.
@@ -95,7 +93,6 @@ class Job:
         return True
 
     def summary(self) -> dict[str, object]:
-        """Return its own output; empty if it did not get so far."""
         try:
             found = json.loads((self.folder / SUMMARY).read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -127,26 +124,17 @@ def main(arguments: Sequence[str]) -> int:
 
 def _jobs(options: argparse.Namespace) -> list[Job] | None:
     """Return the flights, the longest first; None if a file has mistakes, which are printed."""
+    scenarios, are_right = scenarios_in(shipped_paths())
+    if not are_right:
+        return None
     jobs: list[tuple[float, Job]] = []
-    has_mistakes = False
-    tags: set[str] = set()
-    for path in shipped_paths():
-        try:
-            scenario = read_scenario(path)
-        except ConfigErrors as errors:
-            print_problems(errors.problems)
-            has_mistakes = True
-            continue
-        tags.update(scenario.tags)
-        if set(options.tag) <= set(scenario.tags):
-            flights = 1 if scenario.control is None else 2
-            folder = options.output / name_of(path)
-            job = Job(path, scenario.is_real, folder, _missing(scenario))
-            jobs.append((-scenario.duration_s * flights, job))
-    if options.tag and not jobs and not has_mistakes:
-        raise no_such_tag(options.tag, tags)
+    for path, scenario in tagged(scenarios, options.tag):
+        flights = 1 if scenario.control is None else 2
+        folder = options.output / path.stem
+        job = Job(path, scenario.is_real, folder, _missing(scenario))
+        jobs.append((-scenario.duration_s * flights, job))
     jobs.sort(key=lambda each: (each[1].is_real, each[0], each[1].name))
-    return None if has_mistakes else [job for _, job in jobs]
+    return [job for _, job in jobs]
 
 
 def _without_missing(jobs: list[Job]) -> list[Job]:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from up.cli.cli_error import UsageError
 from up.cli.option_parser import OptionParser
+from up.config import ConfigErrors
 from up.fields import suggestion
+from up.output import print_problems
+from up_simulator.scenario.file import read_scenario
+from up_simulator.scenario.scenario import Scenario
 
 SHIPPED = Path(__file__).resolve().parents[1] / "scenarios"
 SUFFIXES = (".yml", ".yaml")
@@ -23,6 +27,29 @@ def verb_parser(verb: str, description: str, epilog: str = "") -> OptionParser:
 def shipped_paths() -> list[Path]:
     """Return the files of all scenarios that are shipped, by name."""
     return sorted(SHIPPED.glob("*.yml"))
+
+
+def scenarios_in(paths: Iterable[Path]) -> tuple[list[tuple[Path, Scenario]], bool]:
+    """Return the scenarios, and whether every file is one; mistakes in the others are printed."""
+    found = []
+    are_right = True
+    for path in paths:
+        try:
+            found.append((path, read_scenario(path)))
+        except ConfigErrors as errors:
+            print_problems(errors.problems)
+            are_right = False
+    return found, are_right
+
+
+def tagged(
+    scenarios: Sequence[tuple[Path, Scenario]], tags: Sequence[str]
+) -> list[tuple[Path, Scenario]]:
+    """Return the scenarios that have all of the tags; raises UsageError if there is none."""
+    chosen = [each for each in scenarios if set(tags) <= set(each[1].tags)]
+    if tags and not chosen:
+        raise _no_such_tag(tags, {tag for _, scenario in scenarios for tag in scenario.tags})
+    return chosen
 
 
 def find(name: str) -> Path:
@@ -53,16 +80,10 @@ def _hint(name: str) -> str:
     return suggestion(name, names) or " ('up-sim list' lists them)"
 
 
-def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
-    """Return the exception for tags that no scenario has."""
-    names = sorted(set(known))
+def _no_such_tag(wanted: Sequence[str], known: Iterable[str]) -> UsageError:
+    names = sorted(known)
     asked = " and ".join(f"'{tag[:80]}'" for tag in wanted)
     unknown = [tag for tag in wanted if tag not in names]
     hint = suggestion(unknown[0], names) if unknown else ""
     hint = hint or f": there are {', '.join(names)}"
     return UsageError(f"no scenario has the tag {asked}{hint}", "no_such_tag")
-
-
-def name_of(path: Path) -> str:
-    """Return the name of a scenario in reports and folders."""
-    return path.stem

@@ -20,7 +20,6 @@ from up_simulator.scenario.result import Result
 from up_simulator.scenario.run import (
     FLIGHTS,
     CannotFlyError,
-    Output,
     fly_scenario,
     try_folder,
     write_files,
@@ -32,7 +31,6 @@ from up_simulator.verbs.catalogue import (
     NOT_HELD,
     WRONG_INPUT,
     find,
-    name_of,
     verb_parser,
 )
 
@@ -54,14 +52,14 @@ def main(arguments: Sequence[str]) -> int:
     """Fly the named scenarios; return the exit status."""
     options = _parser().parse_args(arguments)
     flights = [(path, _read(path, options)) for path in map(find, options.scenarios)]
-    try_output(options.output, [name_of(path) for path, _ in flights])
+    try_output(options.output, [path.stem for path, _ in flights])
     results: list[tuple[str, Result]] = []
     is_whole = True
     for path, scenario in flights:
-        result, is_written = _fly(name_of(path), scenario, options)
-        results.append((name_of(path), result))
+        result, is_written = _fly(path.stem, scenario, options)
+        results.append((path.stem, result))
         is_whole = is_whole and is_written
-        if result.record.is_interrupted or (result.control and result.control.is_interrupted):
+        if result.is_interrupted:
             break
     if len(flights) > 1:
         _print_table(results, len(flights))
@@ -94,8 +92,7 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
         if value is not None
     ]
     overrides += [_override(text) for text in options.set]
-    scenario = read_scenario(path, overrides)
-    return scenario
+    return read_scenario(path, overrides)
 
 
 def _override(text: str) -> Override:
@@ -112,8 +109,8 @@ def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Re
     except CannotFlyError as error:
         status = WRONG_INPUT if error.is_wrong_input else NOT_HELD
         raise CliError(f"{name}: {error}", status, error.code) from error
-    output = Output(options.output / name, has_picture=not options.no_picture)
-    files = write_files(name, result, output, _note)
+    folder = options.output / name
+    files = write_files(name, result, folder, _note, has_picture=not options.no_picture)
     if not options.quiet:
         for line in report_lines(name, result, files.written):
             sys.stdout.write(f"{line}\n")

@@ -8,17 +8,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from up.cli.option_parser import add_json_option
-from up.config import ConfigErrors
 from up.fields import printable
-from up.output import echo, print_problems
-from up_simulator.scenario.file import read_scenario
+from up.output import echo
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.verbs.catalogue import (
     HELD,
     WRONG_INPUT,
-    name_of,
-    no_such_tag,
+    scenarios_in,
     shipped_paths,
+    tagged,
     verb_parser,
 )
 
@@ -46,41 +44,29 @@ def main(arguments: Sequence[str]) -> int:
         paths = sorted(options.folder.glob("*.yml"))
     else:
         parser.error(f"{options.folder} is not a folder")
-    tags: set[str] = set()
-    is_empty = True
-    rows: list[dict[str, object]] = []
-    width = max((len(name_of(path)) for path in paths), default=0)
-    status = HELD
-    for path in paths:
-        try:
-            scenario = read_scenario(path)
-        except ConfigErrors as errors:
-            print_problems(errors.problems)
-            status = WRONG_INPUT
-            continue
-        tags.update(scenario.tags)
-        if set(options.tag) <= set(scenario.tags):
-            is_empty = False
-            if options.json:
-                rows.append(_row(path, scenario))
-                continue
-            pace = "real time" if scenario.is_real else ""
-            title = scenario.title.strip()
-            line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {title}"
-            more = "; ".join(part for part in (", ".join(scenario.tags), pace) if part)
-            sys.stdout.write(printable(f"{line}  [{more}]" if more else line) + "\n")
-            if scenario.guards:
-                sys.stdout.write(printable(f"{'':<{width}}  guards: {scenario.guards}") + "\n")
-    if is_empty and options.tag:
-        raise no_such_tag(options.tag, tags)
+    scenarios, are_right = scenarios_in(paths)
+    chosen = tagged(scenarios, options.tag)
     if options.json:
-        echo(json.dumps(rows, indent=1))
-    return status
+        echo(json.dumps([_row(*each) for each in chosen], indent=1))
+    else:
+        _print(chosen, max((len(path.stem) for path in paths), default=0))
+    return HELD if are_right else WRONG_INPUT
+
+
+def _print(scenarios: Sequence[tuple[Path, Scenario]], width: int) -> None:
+    for path, scenario in scenarios:
+        pace = "real time" if scenario.is_real else ""
+        title = scenario.title.strip()
+        line = f"{path.stem:<{width}}  {scenario.duration_s:>5g} s  {title}"
+        more = "; ".join(part for part in (", ".join(scenario.tags), pace) if part)
+        sys.stdout.write(printable(f"{line}  [{more}]" if more else line) + "\n")
+        if scenario.guards:
+            sys.stdout.write(printable(f"{'':<{width}}  guards: {scenario.guards}") + "\n")
 
 
 def _row(path: Path, scenario: Scenario) -> dict[str, object]:
     return {
-        "name": name_of(path),
+        "name": path.stem,
         "file": str(path),
         "duration_s": scenario.duration_s,
         "title": scenario.title.strip(),

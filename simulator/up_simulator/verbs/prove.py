@@ -96,7 +96,6 @@ def _cases(options: argparse.Namespace, setup: Setup, codes: Sequence[str]) -> l
 
 
 def _fly(proof: Proof, cases: Sequence[Case], processes: int) -> bool:
-    """Fly all; return whether it was interrupted."""
     bar = Bar(sys.stderr, len(cases))
     found: dict[int, Outcome] = {}
     is_interrupted = False

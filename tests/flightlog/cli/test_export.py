@@ -1,5 +1,3 @@
-"""``up log export``."""
-
 import csv
 from xml.etree import ElementTree
 

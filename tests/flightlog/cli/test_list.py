@@ -1,5 +1,3 @@
-"""``up log list``."""
-
 import fcntl
 import io
 import json
@@ -149,7 +147,8 @@ class Terminal(io.StringIO):
 def test_progress_is_shown_on_a_terminal_after_a_while(monkeypatch, is_terminal, delay_s, shown):
     monkeypatch.setattr("up_flightlog.cli.terminal._DELAY_S", delay_s)
     terminal = Terminal(bool(is_terminal))
-    with Progress("reading flight", 300, terminal) as progress:
-        progress.update(12)
+    monkeypatch.setattr("sys.stderr", terminal)
+    with Progress("reading flight") as progress:
+        progress.show("12 of 300")
     assert ("12 of 300" in terminal.getvalue()) == bool(shown)
     assert terminal.getvalue().endswith("\r\x1b[K") == bool(shown)

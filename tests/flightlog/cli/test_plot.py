@@ -1,5 +1,3 @@
-"""``up log plot``."""
-
 import pytest
 from PIL import Image
 

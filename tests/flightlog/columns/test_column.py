@@ -1,5 +1,3 @@
-"""Windows of a column: exact minima and maxima, few points, open gaps."""
-
 import math
 from array import array
 

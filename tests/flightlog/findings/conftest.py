@@ -1,5 +1,3 @@
-"""Flights for the checks."""
-
 import pytest
 
 from tests.flightlog.flights import (
@@ -15,8 +13,6 @@ def maker():
 
 @pytest.fixture
 def found(maker, tmp_path):
-    """Return a function that analyses the flight: time, level, code and length of each finding."""
-
     def found(is_finished=True):
         return [
             (round(each.time_s, 1), each.level, each.code, round(each.length_s, 2))
@@ -28,8 +24,6 @@ def found(maker, tmp_path):
 
 @pytest.fixture
 def only(maker, tmp_path):
-    """Return a function that analyses the flight and returns its single finding."""
-
     def only():
         (finding,) = findings(maker.log(tmp_path))
         return finding

@@ -1,5 +1,3 @@
-"""All checks together."""
-
 from tests.flightlog.flights import (
     ALL_VALID,
     BOARD,

@@ -1,5 +1,3 @@
-"""What sticks ask for: the firmware's own mapping."""
-
 import re
 import struct
 from pathlib import Path

@@ -42,7 +42,6 @@ def test_metadata_attachments_and_schemas(folder):
     assert log.problems == []
     assert log.metadata == {"flight": {"aircraft": "glider-1", "host": "pi"}}
     assert log.attachments["config/pids.yml"].read() == b"rate: 2.0\n"
-    assert log.attachments["config/pids.yml"].media_type == "text/yaml"
     assert log.schema("up.orientation.update") == {"type": "object"}
     assert log.schema("nothing") is None
 

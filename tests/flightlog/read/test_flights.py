@@ -1,5 +1,3 @@
-"""The flight that a user selects."""
-
 import pytest
 
 from tests.flightlog.logbook import START_UNIX_S, write_flight

@@ -1,5 +1,3 @@
-"""The events of a flight, one line each."""
-
 import pytest
 
 from tests.flightlog.flights import GROUND, FlightMaker, LinkStateCommand, PanicCommand

@@ -1,5 +1,3 @@
-"""Findings of one kind are one line."""
-
 from tests.flightlog.logs import LogMaker
 from up_flightlog.findings.finding import Finding, lasting
 from up_flightlog.findings.summary import summarise

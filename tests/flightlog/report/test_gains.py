@@ -1,5 +1,3 @@
-"""The sets of gains of a flight."""
-
 from tests.flightlog.flights import GROUND, FlightMaker
 from tests.flightlog.flights import PIDTuningsCommand as Tunings
 from up_flightlog.report.gains import gain_sets, requested_sets

@@ -1,10 +1,7 @@
-"""The processes that draw a report's pictures."""
-
 import subprocess
 import sys
-from pathlib import Path
 
-from tests.support.waiting import until
+from tests.support.waiting import is_running, until
 
 DRAWING = """
 import multiprocessing, os, time
@@ -27,10 +24,3 @@ def test_they_end_with_a_report_that_is_killed():
         assert workers and all(map(is_running, workers))
         report.kill()
     until(lambda: not any(map(is_running, workers)), "the end of the workers")
-
-
-def is_running(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False

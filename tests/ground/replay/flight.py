@@ -21,7 +21,6 @@ def data_at(time_s):
 
 
 def write_flight(path, length_s=LENGTH_S, gap=(0.0, 0.0)):
-    """Write a flight; no telemetry comes in the gap."""
     maker = LogMaker()
     maker.writer.add_metadata("flight", {"aircraft": "kite"})
     for number in range(round(length_s * 10) + 1):

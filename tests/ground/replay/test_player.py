@@ -1,5 +1,3 @@
-"""Playing, by the clock."""
-
 import math
 from itertools import pairwise
 

@@ -1,5 +1,3 @@
-"""`up-ground replay` as a whole."""
-
 import pytest
 
 from tests.ground.aircraft import Ground, codes, ground

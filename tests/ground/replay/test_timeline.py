@@ -1,5 +1,3 @@
-"""What happened in a flight, at any moment of it."""
-
 import pytest
 
 from tests.flightlog.logs import LogMaker

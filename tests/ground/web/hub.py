@@ -46,7 +46,6 @@ class Link:
 
     @property
     def told(self):
-        """Return the messages, without the heads of their frames."""
         return [json.loads(each[each.index(b"{") :]) for each in self.output.sent]
 
     def kinds(self):

@@ -141,7 +141,6 @@ class Serve(Ground):
 
 
 def get(port, path, method="GET", **headers):
-    """Return (status, headers, body) of a request."""
     request = urllib.request.Request(
         f"http://127.0.0.1:{port}{path}", method=method, headers=headers
     )

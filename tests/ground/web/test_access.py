@@ -1,5 +1,3 @@
-"""Permission to view, and permission to control."""
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,5 +1,3 @@
-"""Outcomes of a Command, by the clock."""
-
 import pytest
 from twisted.internet.task import Clock
 

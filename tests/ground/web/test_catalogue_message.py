@@ -1,5 +1,3 @@
-"""The catalogue of Commands that a page receives."""
-
 import json
 from dataclasses import dataclass
 from typing import ClassVar

@@ -1,5 +1,3 @@
-"""Which page controls, without a network."""
-
 import pytest
 from twisted.internet.task import Clock
 

@@ -75,8 +75,6 @@ def test_whatever_an_aircraft_sends_its_row_is_small(data):
 
 
 class Fleet(Bench):
-    """A hub with two aircraft."""
-
     def __init__(self):
         super().__init__()
         self.gull = Kite()
@@ -144,7 +142,6 @@ def gull(proxy):
 
 @pytest.fixture
 def foreign(proxy):
-    """Fly an aircraft of another owner at the same proxy."""
     with Aircraft(proxy.airborne_port, hello=b"UP1 aircraft=foreign\n") as aircraft:
         yield aircraft
 

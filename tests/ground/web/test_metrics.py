@@ -1,5 +1,3 @@
-"""The ground station's page for Prometheus."""
-
 import re
 
 from tests.ground.web.page import Serve

@@ -25,7 +25,6 @@ def aircraft(proxy, tmp_path):
 
 
 def ask(kind, page, number, **fields):
-    """Send a request of a page; return what waits for its answer."""
     page.send(kind, ask=number, **fields)
     return page.next("plan.answer", lambda each: each["ask"] == number)
 

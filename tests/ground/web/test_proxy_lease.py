@@ -1,5 +1,3 @@
-"""The seat of a link, while the proxy has not yet answered."""
-
 from types import SimpleNamespace
 
 import pytest

@@ -1,5 +1,3 @@
-"""Keys, sessions and pairing of pages, without a network."""
-
 import json
 
 import pytest
@@ -104,7 +102,6 @@ def test_the_token_of_a_page_does_not_replace_its_session():
 
 
 def pair(bench, text=PAIRING, is_private=True, **more):
-    """Return the answer to a pairing text."""
     link = bench.open(**more)
     link.may_send_secrets = is_private
     bench.send(link, type="pair", ask=1, pairing=text)

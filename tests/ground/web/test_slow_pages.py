@@ -50,7 +50,6 @@ class SlowPage:
         self.socket.sendall(bytes((0x81, 0x80 | len(payload))) + mask + masked)
 
     def next(self):
-        """Return the next text message."""
         while True:
             kind, size = self.file.read(2)
             if size == LONG:

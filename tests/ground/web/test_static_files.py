@@ -1,5 +1,3 @@
-"""The folder of the page, and nothing beyond it."""
-
 import pytest
 
 from up_ground.web.static_files import MAX_FILE_BYTES, StaticFiles

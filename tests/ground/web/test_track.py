@@ -1,5 +1,3 @@
-"""The way of an aircraft, with its silences."""
-
 import pytest
 
 from up.protocols.general_message import GeneralMessage

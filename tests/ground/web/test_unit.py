@@ -1,5 +1,3 @@
-"""The systemd unit of the page."""
-
 import socket
 import subprocess
 import urllib.request

@@ -79,7 +79,6 @@ def stall(name, model="auto"):
 
 
 def peaks(values):
-    """Return the places and heights of the maxima."""
     return [
         (index, values[index])
         for index in range(1, len(values) - 1)

@@ -51,8 +51,8 @@ class Flight:
             choose_ports(True),
             controller="msp",
             airframe=load_airframe("glider"),
-            is_at_start=False,
         )
+        (self.config / "flight_state.yml").unlink()
         (self.config / "msp.yml").write_text(f"port: {LINE}\n")
         (self.config / "mission_control.yml").write_text(
             "role: pilot\nlistener: {port: 0, address: 127.0.0.1}\n"

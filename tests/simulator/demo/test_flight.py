@@ -51,7 +51,6 @@ class Terminal:
         raise AssertionError(f"no child {word}")
 
     def end(self):
-        """End it in order and return the exit status."""
         self.process.send_signal(signal.SIGTERM)
         deadline_s = time.monotonic() + DEADLINE_S
         while self.process.poll() is None:

@@ -37,7 +37,6 @@ class Aboard:
         self.run_ms(wait_ms)
 
     def answers(self, letter, payload=b"", wait_ms=60):
-        """Return type and payload of what answers a Command."""
         self.tap.take_answers()
         self.send(letter, payload)
         self.run_ms(wait_ms)
@@ -93,7 +92,6 @@ class Pair:
 
 
 def rocking(time_s):
-    """Return an aircraft that rocks and nods."""
     roll, pitch = 15 * math.sin(time_s), 8 * math.sin(0.7 * time_s)
     rates = (15 * math.cos(time_s), 5.6 * math.cos(0.7 * time_s), 0.0)
     return motion_at(roll, pitch, rates)

@@ -16,7 +16,6 @@ from up_simulator.firmware.rig_board import RigBoard
 
 
 def recorder(logged):
-    """Return a log that records code and reason of each line."""
     return lambda _text, *, code, reason: logged.append((code, reason))
 
 

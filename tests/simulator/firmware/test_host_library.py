@@ -7,7 +7,8 @@ import struct
 import pytest
 
 from tests.simulator.firmware.pair import Aboard, rocking
-from up_simulator.firmware.host_board import HostBoard, HostUnavailableError
+from up_rig import RigUnavailableError
+from up_simulator.firmware.host_board import HostBoard
 from up_simulator.firmware.imu_errors import ImuErrors
 
 GAINS = struct.pack(">18f", *(0.125 * (1 + at) for at in range(18)))
@@ -90,7 +91,7 @@ def test_an_invalid_library_is_refused(tmp_path):
     wrong = tmp_path / "wrong.so"
     wrong.write_bytes(b"no library")
     for path in (tmp_path / "missing.so", wrong, _ctypes.__file__):
-        with pytest.raises(HostUnavailableError, match=r"make -C arduino host-library") as refused:
+        with pytest.raises(RigUnavailableError, match=r"make -C arduino host-library") as refused:
             HostBoard(path, imu_errors=ImuErrors())
         assert str(path) in str(refused.value)
         assert "\n" not in str(refused.value)

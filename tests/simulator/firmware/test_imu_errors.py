@@ -7,7 +7,7 @@ import statistics
 import pytest
 
 from up_rig.imu import Motion
-from up_simulator.firmware.imu_errors import ImuErrors, ImuModel, drawn_errors
+from up_simulator.firmware.imu_errors import BoardImu, ImuErrors, drawn_errors
 
 STILL = Motion()
 QUIET = {"gyro_noise_deg_s": 0.0, "accel_noise_m_s2": 0.0}
@@ -15,9 +15,9 @@ SAMPLE_S = 0.0005
 
 
 def samples(errors, *, seed=1, seconds=2.0, throttle=0.0):
-    model = ImuModel(errors, seed)
+    model = BoardImu(errors, seed)
     model.throttle = throttle
-    return [model.measure(STILL, at * SAMPLE_S) for at in range(round(seconds / SAMPLE_S))]
+    return [model.measure(at * SAMPLE_S) for at in range(round(seconds / SAMPLE_S))]
 
 
 def rolls(measured):
@@ -43,11 +43,11 @@ def test_each_axis_has_its_own_bias():
 
 
 def test_the_gyro_drifts_until_it_is_warm():
-    model = ImuModel(ImuErrors(**QUIET, gyro_drift_deg_s=(2, 0, -4), warm_up_s=30), seed=1)
-    assert model.measure(STILL, 0.0).roll_rate_deg_s == 0
-    warming = model.measure(STILL, 30.0)
+    model = BoardImu(ImuErrors(**QUIET, gyro_drift_deg_s=(2, 0, -4), warm_up_s=30), seed=1)
+    assert model.measure(0.0).roll_rate_deg_s == 0
+    warming = model.measure(30.0)
     assert warming.roll_rate_deg_s == pytest.approx(2 * (1 - 1 / math.e))
-    assert model.measure(STILL, 600.0).yaw_rate_deg_s == pytest.approx(-4, abs=1e-6)
+    assert model.measure(600.0).yaw_rate_deg_s == pytest.approx(-4, abs=1e-6)
 
 
 @pytest.mark.parametrize(("throttle", "amplitude", "hz"), [(1.0, 4.0, 100.0), (0.5, 1.0, 50.0)])
@@ -66,10 +66,10 @@ def test_nothing_shakes_while_the_motor_stands():
 
 
 def test_errors_change_in_flight():
-    model = ImuModel(ImuErrors(**QUIET), seed=1)
-    assert model.measure(STILL, 1.0) == STILL
+    model = BoardImu(ImuErrors(**QUIET), seed=1)
+    assert model.measure(1.0) == STILL
     model.errors = ImuErrors(**QUIET, gyro_bias_deg_s=(5, 0, 0))
-    assert model.measure(STILL, 1.001).roll_rate_deg_s == 5
+    assert model.measure(1.001).roll_rate_deg_s == 5
 
 
 def test_the_same_seed_errs_alike():

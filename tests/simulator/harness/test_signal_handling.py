@@ -9,6 +9,7 @@ import subprocess
 import sys
 import termios
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -91,11 +92,19 @@ def wait_for_progress(own):
         shown += os.read(own, 1000)
 
 
-def ignores_interrupts(pid):
+def ignores(pid, number):
     with suppress(OSError):
         status = Path(f"/proc/{pid}/status").read_text()
-        return int(status.partition("SigIgn:")[2].split()[0], 16) >> (signal.SIGINT - 1) & 1
+        return int(status.partition("SigIgn:")[2].split()[0], 16) >> (number - 1) & 1
     return False
+
+
+def read_until(process, *words):
+    output = b""
+    while not any(word in output for word in words):
+        line = process.stdout.readline()
+        assert line, output
+        output += line
 
 
 def flights(folder):
@@ -208,7 +217,8 @@ def test_tuning_ends_its_workers(in_a_folder, number):
         until(lambda: len(ours(in_a_folder)) == 4, "two workers")
         if number == signal.SIGKILL:
             # A worker whose parent is killed before it has started cannot be kept from complaining.
-            until(lambda: sum(map(ignores_interrupts, ours(in_a_folder))) == 3, "their handlers")
+            interrupts = partial(ignores, number=signal.SIGINT)
+            until(lambda: sum(map(interrupts, ours(in_a_folder))) == 3, "their handlers")
         process.send_signal(number)
         output = process.communicate(timeout=DEADLINE_S)[0].decode()
         until(lambda: not ours(in_a_folder), "the end of the workers")
@@ -228,31 +238,18 @@ def test_an_aircraft_started_with_nohup_ignores_the_hangup(in_a_folder, module):
         own = ["--any-ports", "--no-watch", "--folder", str(in_a_folder)]
     words = ("-m", module, *own)
     with program(in_a_folder, *words, python=True, preexec_fn=ignore_hangup) as process:
-        output = b""
-        while not any(word in output for word in (b"board on", b"It flies")):
-            line = process.stdout.readline()
-            assert line, output
-            output += line
-        ignored = [
-            line
-            for line in Path(f"/proc/{process.pid}/status").read_text().splitlines()
-            if line.startswith("SigIgn")
-        ]
+        read_until(process, b"board on", b"It flies")
+        assert ignores(process.pid, signal.SIGHUP)
         process.send_signal(signal.SIGTERM)
         assert process.wait(DEADLINE_S) == 0
         until(lambda: not ours(in_a_folder), "the end of all")
-    assert int(ignored[0].split()[1], 16) >> (signal.SIGHUP - 1) & 1
     assert left(in_a_folder) == []
 
 
 def test_a_killed_demo_leaves_nothing(in_a_folder):
     words = ("--any-ports", "--no-watch", "--folder", str(in_a_folder))
     with program(in_a_folder, "-m", "up_simulator.demo", *words, python=True) as process:
-        output = b""
-        while b"It flies" not in output:
-            line = process.stdout.readline()
-            assert line, output
-            output += line
+        read_until(process, b"It flies")
         # Itself, aircraft, proxy, daemon and the page.
         assert len(ours(in_a_folder)) == 5
         process.kill()

@@ -1,5 +1,3 @@
-"""The words for a bad link."""
-
 from contextlib import suppress
 
 import pytest

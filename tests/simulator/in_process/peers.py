@@ -68,7 +68,7 @@ class Bench:
 
     def __init__(self, up=None, down=None, *, seed=1, here=None, there=None):
         self.reactor = SimulatedReactor()
-        self.pi, self.phone = self.reactor.host("pi"), self.reactor.host("phone")
+        self.pi, self.phone = self.reactor.host(), self.reactor.host()
         if up is not None:
             self.up, self.down = LinkModel(up, seed), LinkModel(down or up, seed + 1)
             self.reactor.link(PORT, self.up, self.down)

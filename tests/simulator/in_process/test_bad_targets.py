@@ -46,13 +46,11 @@ class Flight:
         assert not self.flight.is_over, self.flight.record.failure
 
     def asked(self, name, **data):
-        """Return the answer to a Command: '' for an ack, else the reason."""
         sent = self.ground.send(name, **data)
         self.fly(0.3)
         return self.ground.answer(sent)
 
     def refusal(self, name, **data):
-        """Return code and detail of the refusal of a Command."""
         sent = self.ground.send(name, **data)
         self.fly(0.3)
         nack = self.ground.others["up.nack"]

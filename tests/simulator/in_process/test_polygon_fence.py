@@ -1,5 +1,3 @@
-"""A fence with corners, uploaded over the link in flight: the aircraft turns before its border."""
-
 import json
 
 from raspilot.mission.borders import local_borders, margin_m

@@ -76,7 +76,7 @@ def test_it_boots_connects_to_the_board_and_sends_telemetry(tmp_path):
     bench.raspilot.start()
     bench.ground.start()
     bench.run(2.0)
-    assert bench.raspilot.ports == {
+    assert bench.raspilot.up.ports == {
         "general": 50001, "orientation": 50000, "discovery": 3001, "ground": GROUND_PORT
     }  # fmt: skip
     assert bench.ground.telemetry["arduino"]["connected"] is True
@@ -97,7 +97,7 @@ def test_configuration_errors_have_file_and_line(tmp_path):
     assert "config.yml:1:1" in first and "log level" in first
     assert "arduino.yml:2:12" in second
     assert not bench.raspilot.is_running
-    assert bench.raspilot.ports == {}
+    assert bench.raspilot.up is None
 
 
 def test_a_failed_boot_is_logged_and_ends_the_daemon(tmp_path):

@@ -1,5 +1,3 @@
-"""The socket that stands for the serial port."""
-
 import os
 
 from up_simulator.in_process.raspilot import SocketLine

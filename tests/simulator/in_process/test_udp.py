@@ -1,5 +1,3 @@
-"""Datagrams in memory."""
-
 import pytest
 from twisted.internet.error import CannotListenError
 

@@ -73,11 +73,16 @@ class Bench:
             self.listener.getHost().port,
             self.up,
             self.down,
-            clock=self.clock,
             **self.options,
         )
+        self.relay.clock = self.clock
         self.relay.start()
         return self
+
+    @property
+    def waiting(self):
+        ends = [end for each in self.relay.connections for end in (each.near, each.far)]
+        return sum(end.outgoing.waiting for end in ends)
 
     async def __aexit__(self, *exception):
         await self.relay.stop()
@@ -145,5 +150,4 @@ class UdpPeer(DatagramProtocol):
 
 
 def flown(function, *arguments):
-    """Run a coroutine on the real reactor."""
     return run_in_reactor(function, *arguments)

@@ -32,8 +32,6 @@ def port_of(made):
 
 
 class Peer:
-    """The Raspberry Pi's end of one connection."""
-
     def __init__(self, server):
         self.connection, self.address = server.accept()
         self.connection.settimeout(DEADLINE_S)

@@ -19,7 +19,6 @@ COLUMNS = (
 
 
 def mode_at(time_s):
-    """Return which mode flies."""
     for until_s, mode in ((5, "ACRO"), (9, "RATE"), (24, "FBW"), (30, "SETPOINT")):
         if time_s < until_s:
             return mode
@@ -27,7 +26,6 @@ def mode_at(time_s):
 
 
 def made_up(seconds=40.0, *, crashes=False, seed=3):
-    """Return the log of a flight that never was."""
     dice = random.Random(seed)
     log = FlightLog(COLUMNS)
     roll = rate = east = north = 0.0

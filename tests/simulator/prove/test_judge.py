@@ -19,7 +19,7 @@ DEMANDING = replace(
 
 def track(**changes):
     """Return 40 s of a level flight 100 m from home; a change has a function of the time."""
-    plain = Sample(0.0, 100.0, 0.0, 60.0, 11.0, 0.0, "RETURN", "SETPOINT")
+    plain = Sample(0.0, 100.0, 0.0, 60.0, 11.0, "RETURN", "SETPOINT")
     times = [at / 10 for at in range(400)]
     made = [{name: value(at) for name, value in changes.items()} for at in times]
     return [replace(plain, time_s=at, **each) for at, each in zip(times, made, strict=True)]

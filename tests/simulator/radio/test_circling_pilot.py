@@ -75,15 +75,6 @@ def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
                 assert FLIGHT_MODES[tap.mode] == mode
 
 
-def test_a_board_that_is_not_armed_gets_its_edge_first_and_throttle_later():
-    pilot, state = CirclingPilot(is_armed=False), StillFlight().state
-    assert not pilot.sticks(0.0, state).is_armed
-    assert not pilot.sticks(0.9, state).is_armed
-    armed = pilot.sticks(1.1, state)
-    assert (armed.is_armed, armed.throttle) == (True, 1000)
-    assert pilot.sticks(2.1, state).throttle > 1000
-
-
 def test_a_glider_without_a_motor_gets_no_throttle():
     assert CirclingPilot(has_motor=False).sticks(5.0, StillFlight().state).throttle == 1000
 

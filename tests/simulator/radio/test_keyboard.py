@@ -1,5 +1,3 @@
-"""The keys of a terminal as sticks."""
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

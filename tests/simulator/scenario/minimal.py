@@ -1,5 +1,3 @@
-"""Scenarios and logs that tests begin with."""
-
 from up_simulator.scenario.file import parse_scenario
 from up_simulator.scenario.log import FlightLog
 
@@ -12,7 +10,6 @@ def scenario(text="", expect=EXPECT):
 
 
 def log_of(columns, count=None):
-    """Return a log of rows every 20 ms from lists or functions of the time."""
     log = FlightLog(["time_s", *columns, "event"])
     count = count or max(len(each) for each in columns.values() if not callable(each))
     for at in range(count):

@@ -65,7 +65,6 @@ def problems(text, *overrides):
 
 
 def place_of(problem):
-    """Return line and key of a problem."""
     key = re.match(r"([\w.\[\]]+):? ", problem.what)
     assert str(problem).startswith(f"flight.yml:{problem.line}:{problem.column}: ")
     return f"{problem.line} {key[1]}" if key and ":" in key[0] else str(problem.line)
@@ -84,7 +83,7 @@ def test_every_value_is_read():
     assert [expectation.kind for expectation in read.expect] == [
         "between", "is_", "becomes", "grows_below", "step",
     ]  # fmt: skip
-    assert read.link.down.delay_ms == 0 and read.link.up.settings().loss_percent == 2
+    assert read.link.down.delay_ms == 0 and read.link.up.loss_percent == 2
 
 
 def test_a_short_file_has_defaults():

@@ -65,7 +65,6 @@ def read(tmp_path, columns, text="", **record):
 
 @pytest.fixture(scope="module")
 def flown(tmp_path_factory):
-    """A flight of four seconds and where its files are."""
     build_firmware()
     folder = tmp_path_factory.mktemp("flown")
     (folder / "flown.yml").write_text(FLOWN)

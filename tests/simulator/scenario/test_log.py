@@ -28,7 +28,9 @@ def test_a_log_is_read_as_it_was_written(tmp_path_factory, rows):
     read = read_log(path)
     assert read.columns == log.columns
     # NaN is not itself: the text is.
-    assert read.text() == log.text()
+    again = path.with_name("again.csv")
+    read.write(again)
+    assert again.read_bytes() == path.read_bytes()
     assert len(read) == len(rows)
 
 
@@ -67,8 +69,8 @@ def test_a_file_that_is_not_a_log_is_rejected(tmp_path, text, line, code):
     path.write_bytes(text.encode("latin-1"))
     with pytest.raises(LogError) as caught:
         read_log(path)
-    assert (caught.value.line, caught.value.code) == (line, code)
-    assert str(caught.value).startswith(f"{path}:") and "\n" not in str(caught.value)
+    assert caught.value.code == code and "\n" not in str(caught.value)
+    assert str(caught.value).startswith(f"{path}:{line}: " if line else f"{path}: ")
 
 
 def test_a_missing_log_is_rejected(tmp_path):

@@ -41,7 +41,6 @@ def test_the_overshoot_is_the_one_of_the_damping(damping, start, end):
     response = analyse_step(times, values, 1.0, start, end)
     assert response.overshoot_percent == pytest.approx(exact, abs=1.0)
     assert response.steady_error == pytest.approx(0, abs=0.005 * abs(end - start))
-    assert response.peak == pytest.approx(start + (end - start) * (1 + exact / 100), rel=0.02)
 
 
 @pytest.mark.parametrize("tau_s", [0.1, 0.3, 0.8])
@@ -51,7 +50,6 @@ def test_a_first_order_system_rises_in_2_2_and_settles_in_3_time_constants(tau_s
     response = analyse_step(times, values, 0.5, 0, 20)
     assert response.rise_time_s == pytest.approx(math.log(9) * tau_s, rel=0.03)
     assert response.settling_time_s == pytest.approx(math.log(20) * tau_s, rel=0.03)
-    assert response.delay_s == pytest.approx(math.log(10 / 9) * tau_s, abs=STEP_S)
     assert response.overshoot_percent == pytest.approx(0, abs=0.2)
     assert response.swings == 0
 
@@ -134,7 +132,6 @@ GOOD = [index * 0.1 for index in range(40)]
 @pytest.mark.parametrize(
     ("times", "values", "at", "start", "end", "code"),
     [
-        (GOOD, GOOD[:-1], 1, 0, 1, "lengths_differ"),
         (GOOD, [*GOOD[:-1], math.nan], 1, 0, 1, "not_finite"),
         (GOOD, [*GOOD[:-1], math.inf], 1, 0, 1, "not_finite"),
         ([*GOOD[:-1], 0.0], GOOD, 1, 0, 1, "times_not_rising"),
@@ -172,7 +169,7 @@ def test_whatever_comes_gives_figures_or_a_step_error(values, period_s, at, star
         return
     assert math.isfinite(response.overshoot_percent)
     assert response.overshoot_percent >= 0
-    for time_s in (response.rise_time_s, response.settling_time_s, response.delay_s):
+    for time_s in (response.rise_time_s, response.settling_time_s):
         assert time_s is None or 0 <= time_s <= times[-1] - at + period_s
 
 

@@ -1,5 +1,3 @@
-"""The program: verbs, exit statuses and its output."""
-
 import json
 import os
 import subprocess

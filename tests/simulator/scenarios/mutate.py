@@ -88,7 +88,6 @@ def judge(name: str, parts: list[tuple[str, str, str]], root: Path) -> str:
 
 
 def main() -> int:
-    """Judge the scenarios that are named, or all."""
     taken_out, wrong = mutations(), 0
     scenarios = {path.stem: read_scenario(path) for path in shipped_paths()}
     with tempfile.TemporaryDirectory() as folder:

@@ -11,7 +11,6 @@ from up_simulator.aircraft import load_airframe
 
 @pytest.fixture(scope="session")
 def bench():
-    """Return a bench with the motor glider and the host build."""
     need_tool("g++")
     need_tool("make")
     if importlib.util.find_spec("jsbsim") is None:

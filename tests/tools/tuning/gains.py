@@ -1,5 +1,3 @@
-"""Gains that tuning tests begin with."""
-
 from tools.tuning.gain_set import ZERO
 from up.commands.gains import Gains, GainSet, LoopGains
 

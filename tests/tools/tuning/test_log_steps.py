@@ -35,7 +35,6 @@ def flight(demands, *, stiffness=16.0, damping=6.0, gain=1.0, noise=0.0, name="r
 
 
 def held(*levels, seconds=3.0):
-    """Return demands that step from level to level."""
     return [level for level in levels for _ in range(round(seconds / ROW_S))]
 
 

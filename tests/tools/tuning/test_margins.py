@@ -37,7 +37,6 @@ def test_an_integrator_with_a_delay(gain, delay_s):
     assert margins.phase_margin_deg == pytest.approx(90 - math.degrees(gain * delay_s), abs=0.5)
     left_ms = 1000 * (math.pi / 2 / gain - delay_s)
     assert margins.delay_margin_ms == pytest.approx(left_ms, rel=0.03)
-    assert margins.is_stable
 
 
 @given(st.floats(0.5, 30), st.floats(0.5, 30), st.floats(0.05, 0.9))
@@ -49,17 +48,12 @@ def test_three_lags(first, second, share):
     assert margins.gain_margin_db == pytest.approx(-20 * math.log10(share), abs=0.15)
     rings_hz = math.sqrt(first * second) / 2 / math.pi
     assert margins.gain_margin_hz == pytest.approx(rings_hz, rel=0.05)
-    assert margins.is_stable
-    assert not margins_of(
-        scaled(loop(lambda s: gain / (s * (s + first) * (s + second))), 1.2 / share)
-    ).is_stable
 
 
 def test_the_gain_that_is_too_high_is_a_margin_below_zero():
     points = loop(lambda s: 8 / s * cmath.exp(-s * 0.1))
     left = margins_of(points).gain_margin_db
     margins = margins_of(scaled(points, 4))
-    assert not margins.is_stable
     assert margins.delay_margin_ms == 0
     assert margins.gain_margin_db == pytest.approx(left - 20 * math.log10(4), abs=0.2)
 
@@ -82,8 +76,8 @@ def test_the_peak_of_the_sensitivity_is_how_near_it_comes_to_minus_one():
 def test_whole_turns_of_the_phase_do_not_matter():
     """A second integrator at low frequencies begins beyond -180 degrees, which is not ringing."""
     margins = margins_of(loop(lambda s: 6 * (s + 1) * (s + 0.4) / s**3 * cmath.exp(-s * 0.03)))
-    assert margins.is_stable
     assert margins.gain_margin_db > 10
+    assert margins.phase_margin_deg > 0
 
 
 @pytest.mark.parametrize("gain", [3.0, 8.0])

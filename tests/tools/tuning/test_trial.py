@@ -92,7 +92,7 @@ def test_the_wing_turns_its_elevons_as_the_mix_says(axis, stick, other):
     gains = with_axis(none, axis, AxisGains(Gains(1.0), ZERO))
     trial = Bench(load_airframe("wing"), "host").trial(gains)
     seen = []
-    trial.actuators.on_step = lambda arriving, _moved: seen.append(arriving)
+    trial.dynamics.on_step = lambda arriving, _moved: seen.append(arriving)
     trial.board.set_stick("aux1", 1000.0)
     trial.board.set_stick(stick, 1800.0)
     trial.fly(0.1)

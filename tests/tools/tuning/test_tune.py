@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from tools.tuning.evaluation import Rules, measured_loop
+from tools.tuning.evaluation import Rules, try_loop
 from tools.tuning.gain_set import AxisGains, with_axis
 from tools.tuning.tune import TuneError, choose, measure_loops, tune_axis, tune_yaw
 from up.commands.gains import Gains, GainSet, LoopGains
@@ -26,7 +26,7 @@ def test_proposed_gains_keep_the_rules_when_measured(bench, roll):
     assert roll.keeps_the_rules
     gains = roll.proposal.gains
     for dives in (False, True):
-        loop = measured_loop(bench, with_axis(BEGIN, "roll", gains), "roll", gains, dives)
+        loop = try_loop(bench, with_axis(BEGIN, "roll", gains), "roll", gains, dives)
         assert RULES.broken_by_margins(loop.margins()) == []
     assert RULES.broken_by_steps(roll.proposal.steps) == []
 

@@ -23,9 +23,9 @@ export function freshnessOf(store, value, reading) {
   return value === null ? "none" : store.freshness(reading);
 }
 
-/** otherwise: text while the reading is not stale. Returns age of a stale reading. */
-export function oldText(store, reading, freshness, otherwise = "") {
-  return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : otherwise;
+/** The age of a stale reading; empty while it is not stale. */
+export function oldText(store, reading, freshness) {
+  return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : "";
 }
 
 /** A value of telemetry in an element: `data-key`, `data-freshness`, `--` without a value, the age if stale. */

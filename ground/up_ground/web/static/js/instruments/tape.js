@@ -20,7 +20,7 @@ export class Tape {
   constructor(form) {
     const { x, width, isLeft, key } = form;
     this.#scale = new TapeScale({ step: form.step, units: form.units, height: HEIGHT });
-    this.#label = (value, place) => this.#labelText(value, place, form);
+    this.#label = (value) => labelText(value, form);
     const edge = isLeft ? x + width : x;
     const inward = isLeft ? -1 : 1;
     this.#marks = [];
@@ -86,19 +86,19 @@ export class Tape {
 
   #relabel(first) {
     this.#marks.forEach(({ mark, edge, inward, y }, place) => {
-      const text = this.#label(first + place * this.#scale.step, first);
+      const text = this.#label(first + place * this.#scale.step);
       const length = text === null ? 0 : text === "" ? 5 : 9;
       setAttribute(mark, "d", `M${edge} ${y}h${inward * length}`);
       setText(this.#labels[place], text ?? "");
     });
   }
+}
 
-  #labelText(value, _place, { step, each, least = -Infinity }) {
-    if (value < least) {
-      return null;
-    }
-    return Math.round(value / step) % each === 0 ? String(Math.round(value)) : "";
+function labelText(value, { step, each, least = -Infinity }) {
+  if (value < least) {
+    return null;
   }
+  return Math.round(value / step) % each === 0 ? String(Math.round(value)) : "";
 }
 
 function windowPath(x, width, isLeft) {

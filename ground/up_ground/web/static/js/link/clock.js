@@ -18,10 +18,6 @@ const MAX_S = 2;
 export class Backoff {
   #attempts = 0;
 
-  get attempts() {
-    return this.#attempts;
-  }
-
   /** The seconds to wait now; each call counts one failure. */
   next_s() {
     const wait_s = Math.min(MAX_S, INITIAL_S * 2 ** this.#attempts);

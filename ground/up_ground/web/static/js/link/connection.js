@@ -263,7 +263,7 @@ class PendingCommands {
   #waiting = new Map();
   #timers;
 
-  constructor(timers = TIMERS) {
+  constructor(timers) {
     this.#timers = timers;
   }
 

@@ -23,10 +23,6 @@ export class TimeWindow {
     this.#most_s = Math.max(most_s, least_s + NARROWEST_S);
   }
 
-  get isWhole() {
-    return this.begin_s <= this.#least_s && this.end_s >= this.#most_s;
-  }
-
   /** Show a span, moved and shortened into the limits. */
   set(begin_s, end_s) {
     const length_s = Math.min(Math.max(end_s - begin_s, NARROWEST_S), this.#most_s - this.#least_s);

@@ -10,7 +10,6 @@ import { bearing_deg, distance_m, placeAt, placeOf } from "../state/earth.js";
 export const MISSION = "mission";
 export const FENCE = "fence";
 export const PLANS = [MISSION, FENCE];
-export const EMPTY = Object.freeze({ [MISSION]: [], [FENCE]: [] });
 const MIN_CORNERS = 3;
 const PLACE = ["latitude", "longitude", "altitude", "above_sea"];
 const CIRCLE = [...PLACE, "radius", "clockwise"];

@@ -10,12 +10,12 @@ const MAX_PATH = 200;
 const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\p{Co}\p{Zl}\p{Zp}]/gu;
 
 /** Every value of a tree of telemetry, in its order; an empty object or list is a value. */
-export function leavesOf(tree, most = MAX_LEAVES) {
+export function leavesOf(tree) {
   const leaves = [];
   let isCut = false;
 
   function walk(value, keys) {
-    if (leaves.length >= most) {
+    if (leaves.length >= MAX_LEAVES) {
       isCut = true;
       return;
     }

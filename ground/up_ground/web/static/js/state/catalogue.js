@@ -23,8 +23,7 @@ export class Catalogue {
 
   /**
    * name: or alias. Returns {name, aliases, title, role, roleWhere: [{field, value, role}], text,
-   * needsBeacon, fields: [{name, type, unit, choices, minimum, maximum, longest, isNullable,
-   * isRequired, text}]}.
+   * fields: [{name, type, unit, choices, minimum, maximum, longest, isNullable, isRequired, text}]}.
    */
   get(name) {
     return this.#byName.get(name) ?? null;
@@ -52,7 +51,6 @@ function commandOf(found) {
     role: validate.text(found.role) ?? "",
     roleWhere: roleWhereOf(found.role_where),
     text: validate.text(found.text) ?? "",
-    needsBeacon: found.needs_beacon === true,
     fields: read.filter((each) => each !== null),
   };
 }
