@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
@@ -40,7 +40,7 @@ class TelemetryController(BaseStartedModule):
     consumer: a subscriber may have a ``wants_telemetry`` that is false while it has no peers.
     """
 
-    LOAD_ORDER: ClassVar[int] = sys.maxsize
+    LOAD_ORDER = sys.maxsize
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
@@ -35,7 +35,7 @@ from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
 from up.flight_modes.selector import FlightModeSelector
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import wants
 from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
@@ -62,12 +62,12 @@ class FlightModeManager(BaseFlightController):
     the newest demand, None for one without a path.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    LOAD_ORDER: ClassVar[int] = 100
+    MODES = WITH_BOARD
+    LOAD_ORDER = 100
     CONFIG = NAVIGATION
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
     WRITTEN_FILES = (MEMORY,)
-    SELECTS_MODES: ClassVar[bool] = True
+    SELECTS_MODES = True
 
     attitude_controller = wants(AttitudeController)
     location = wants(UpLocationProvider)

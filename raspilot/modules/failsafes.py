@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import maybeDeferred
 from twisted.python.failure import Failure
@@ -21,7 +21,7 @@ from up.fields import suggestion
 from up.flight_modes.flight_mode import FlightMode
 from up.flight_modes.navigation_file import NAVIGATION
 from up.log.limits import Once
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
@@ -33,11 +33,11 @@ class Failsafes(BasePeriodicModule):
     mode, selected like one by the ground.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    LOAD_ORDER: ClassVar[int] = 200
-    PERIOD_S: ClassVar[float] = 0.2
+    MODES = WITH_BOARD
+    LOAD_ORDER = 200
+    PERIOD_S = 0.2
     CONFIG = FAILSAFE
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
 
     flight = needs(FlightModeManager)
     plans = wants(Plans)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.battery_sag import BatterySag
@@ -11,7 +11,6 @@ from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from raspilot.navigation.fix_sources import FixSources
 from up.commands.airspeed_command import AirspeedCommand
-from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
@@ -49,7 +48,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     """
 
     READING = "navigation"
-    COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
+    COMMAND = OrientationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     orientation = needs(UpOrientationProvider)

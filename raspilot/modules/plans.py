@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import Deferred, DeferredLock
 from twisted.python.failure import Failure
@@ -36,7 +36,7 @@ from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import Point
 from up.mission.items import RETURN as RETURN_ITEM
 from up.mission.items import PlanItem, plan_id
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.disk_thread import DiskThread
@@ -57,9 +57,9 @@ class Plans(BasePeriodicModule):
     ``problems`` are the result, None before the first one.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    MODES = WITH_BOARD
     CONFIG = MISSION_FILE
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
 
     flight = needs(FlightModeManager)
     mission_control = wants(BaseMissionControlProvider)

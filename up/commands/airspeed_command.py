@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -13,7 +11,7 @@ from up.quick_dataclass import dataclass
 class AirspeedCommand(BaseCommand):
     """A true airspeed, and the differential pressure that it was computed from."""
 
-    NAME: ClassVar[str] = "up.airspeed.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    NAME = "up.airspeed.update"
+    ROLES = frozenset({Role.SENSOR})
     airspeed_m_s: float = value(key="airspeed", minimum=0, maximum=150, unit="m/s")
     pressure_pa: float | None = value(None, key="pressure", unit="Pa")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from up.commands.command import BaseCommand
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -13,17 +11,17 @@ from up.quick_dataclass import dataclass
 class ArmCommand(BaseCommand):
     """Arm; the board decides, and an arming veto or a missing beacon refuses it before."""
 
-    NAME: ClassVar[str] = "up.arm"
-    TITLE: ClassVar[str] = "Arm"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.arm"
+    TITLE = "Arm"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True
 
 
 @dataclass(frozen=True, slots=True)
 class DisarmCommand(BaseCommand):
     """Disarm; refused without a fresh beacon and unless the throttle has been low for 2 s."""
 
-    NAME: ClassVar[str] = "up.disarm"
-    TITLE: ClassVar[str] = "Disarm"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.disarm"
+    TITLE = "Disarm"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
 
@@ -12,8 +10,8 @@ from up.quick_dataclass import dataclass
 class PanicCommand(BaseCommand):
     """Enters or leaves Panic Mode; ``delay_ms`` is the period that every sender shall keep."""
 
-    NAME: ClassVar[str] = "up.panic"
-    ALIASES: ClassVar[tuple[str, ...]] = ("load_guard.panic",)
+    NAME = "up.panic"
+    ALIASES = ("load_guard.panic",)
     panic: bool = value()
     delay_ms: int = value(minimum=10, maximum=1000, unit="ms")
     utilization_percent: float | None = value(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -13,8 +11,8 @@ from up.quick_dataclass import dataclass
 class ServoCommand(BaseCommand):
     """The four servo outputs that the board drives now, in microseconds of pulse."""
 
-    NAME: ClassVar[str] = "up.servo.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    NAME = "up.servo.update"
+    ROLES = frozenset({Role.BOARD})
     ailerons_us: int = value(key="ailerons", minimum=0, maximum=3000, unit="us")
     elevator_us: int = value(key="elevator", minimum=0, maximum=3000, unit="us")
     throttle_us: int = value(key="throttle", minimum=0, maximum=3000, unit="us")

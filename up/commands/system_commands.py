@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
 
@@ -12,7 +10,7 @@ from up.quick_dataclass import dataclass
 class SystemStateCommand(BaseCommand):
     """The state of the system (thesis 3.3.5), published once a second."""
 
-    NAME: ClassVar[str] = "up.system.state"
+    NAME = "up.system.state"
     utilization_percent: float = value(key="utilization", unit="percent")
     memory_percent: float = value(key="memory", unit="percent")
     providers: tuple[str, ...] = value()
@@ -24,14 +22,14 @@ class SystemStateCommand(BaseCommand):
 class SystemStopCommand(BaseCommand):
     """Stops the program; only modules of the program may send it."""
 
-    NAME: ClassVar[str] = "up.system.stop"
+    NAME = "up.system.stop"
 
 
 @dataclass(frozen=True, slots=True)
 class LinkStateCommand(BaseCommand):
     """A link came or went: ``link`` is its name; its origin's role says what it links to."""
 
-    NAME: ClassVar[str] = "up.link.state"
+    NAME = "up.link.state"
     link: str = value(max_length=64)
     connected: bool = value()
 
@@ -40,6 +38,6 @@ class LinkStateCommand(BaseCommand):
 class SourceSelectedCommand(BaseCommand):
     """A provider uses another source from now on; ``source`` is the name of its link."""
 
-    NAME: ClassVar[str] = "up.source.selected"
+    NAME = "up.source.selected"
     reading: str = value(max_length=64)
     source: str = value(max_length=64)

@@ -74,7 +74,7 @@ class FlightMode(BaseModule):
     FALLBACK: ClassVar[str] = "GLIDE"
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
 
     successor = ""
     """The mode that replaces this one, once it has set the name, unless that one refuses."""

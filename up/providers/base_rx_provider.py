@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider
@@ -17,7 +16,7 @@ class BaseRXProvider(BaseProvider[RXCommand]):
     """Provides the receiver's inputs, us of pulse; valid while every channel is."""
 
     READING = "rx"
-    COMMAND: ClassVar[type[BaseCommand]] = RXCommand
+    COMMAND = RXCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     def get_channels(self) -> dict[str, int] | None:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.command import BaseCommand
 from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider, Reading, require
 
@@ -15,7 +14,7 @@ class UpAltitudeProvider(BaseProvider[float]):
     """Provides the altitude, m above sea level, and the required altitude."""
 
     READING = "altitude"
-    COMMAND: ClassVar[type[BaseCommand]] = AltitudeCommand
+    COMMAND = AltitudeCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     @property

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.telemetry_schema import READINGS
 from up.earth import compass_deg
@@ -16,7 +15,7 @@ class UpHeadingProvider(BaseProvider[float]):
     """Provides the measured and the required heading, deg clockwise from north."""
 
     READING = "heading"
-    COMMAND: ClassVar[type[BaseCommand]] = HeadingCommand
+    COMMAND = HeadingCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     @property

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.commands.telemetry_schema import READINGS
 from up.earth import bearing_deg, distance_m
@@ -16,7 +15,7 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
     """Provides the position (WGS 84), and distance and bearing to the first one."""
 
     READING = "location"
-    COMMAND: ClassVar[type[BaseCommand]] = LocationCommand
+    COMMAND = LocationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import isfinite
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider
@@ -16,7 +15,7 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
     """Provides attitude (deg) and rates (deg/s), from any link."""
 
     READING = "orientation"
-    COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
+    COMMAND = OrientationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     def _is_valid(self, command: Any) -> bool:

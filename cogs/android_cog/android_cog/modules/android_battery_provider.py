@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from android_cog.commands.android_commands import (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
 )
 from android_cog.config import ANDROID
-from up.commands.command import BaseCommand
 from up.commands.telemetry_schema import READINGS
 from up.failures import FailureSource
 from up.providers.base_provider import BaseProvider, Reading
@@ -22,7 +21,7 @@ class AndroidBatteryProvider(BaseProvider[float], FailureSource):
     """Provides the level of the phone's battery, percent, and reports when it becomes low."""
 
     READING = "battery"
-    COMMAND: ClassVar[type[BaseCommand]] = AndroidBatteryCommand
+    COMMAND = AndroidBatteryCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from android_cog.config import ANDROID
 from android_cog.orientation_input import OrientationInput
@@ -47,7 +47,7 @@ class AndroidProvider(BaseStartedModule):
     """
 
     CONFIG = ANDROID
-    DATA_SOURCE: ClassVar[bool] = True
+    DATA_SOURCE = True
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the phone's ports: its sensors have no key."""

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict
 from functools import partial
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.task import LoopingCall
 
@@ -50,8 +50,8 @@ class MspBoard(BaseBoard):
     CONFIG = MSP
     FLIGHT_CONTROLLERS = frozenset({"msp"})
     DATA_SOURCE = True
-    LINK: ClassVar[str] = "msp"
-    TITLE: ClassVar[str] = "the Betaflight board"
+    LINK = "msp"
+    TITLE = "the Betaflight board"
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
