@@ -7,7 +7,7 @@ from typing import Any
 
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.telemetry_schema import READINGS
-from up.providers.base_provider import BaseProvider, Reading, require
+from up.providers.base_provider import BaseProvider, require
 
 
 class UpAltitudeProvider(BaseProvider[float]):
@@ -18,22 +18,11 @@ class UpAltitudeProvider(BaseProvider[float]):
     MAX_AGE_S = READINGS[READING].source_s
 
     @property
-    def required_altitude(self) -> float | None:
-        """Return the altitude that the flight controller holds at the ground's request, m."""
-        control = self.up.flight_control
-        required: float | None = control and control.required("altitude")
-        return required
-
-    @property
-    def altitude(self) -> float | None:
-        """Return the newest altitude, m."""
-        return self.value
-
-    @property
     def telemetry_content(self) -> Mapping[str, Any]:
+        control = self.up.flight_control
         return {
-            "altitude": self.altitude,
-            "altitude_required": self.required_altitude,
+            "altitude": self.value,
+            "altitude_required": control and control.required("altitude"),
             **self._ages(),
         }
 
@@ -43,9 +32,3 @@ class UpAltitudeProvider(BaseProvider[float]):
             return None
         altitude: float = command.altitude_m
         return altitude
-
-    def _on_changed(self, reading: Reading[float]) -> None:
-        self._on_altitude_changed()
-
-    def _on_altitude_changed(self) -> None:
-        """Called for a new altitude."""

@@ -30,25 +30,14 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
         )
 
     @property
-    def roll(self) -> float | None:
-        """Return the newest roll angle, deg."""
-        return None if self._reading is None else self._reading.value.roll_deg
-
-    @property
-    def pitch(self) -> float | None:
-        """Return the newest pitch angle, deg."""
-        return None if self._reading is None else self._reading.value.pitch_deg
-
-    @property
-    def yaw(self) -> float | None:
-        """Return the newest yaw angle, deg."""
-        return None if self._reading is None else self._reading.value.yaw_deg
-
-    @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        newest = None if self._reading is None else self._reading.value
+        newest = self.value
         return {
-            "orientation": {"yaw": self.yaw, "pitch": self.pitch, "roll": self.roll},
+            "orientation": {
+                "yaw": newest and newest.yaw_deg,
+                "pitch": newest and newest.pitch_deg,
+                "roll": newest and newest.roll_deg,
+            },
             "rates": {
                 "yaw": newest and newest.yaw_rate_deg_s,
                 "pitch": newest and newest.pitch_rate_deg_s,
