@@ -42,17 +42,6 @@ class TelemetryController(BaseStartedModule):
 
     LOAD_ORDER = sys.maxsize
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.wanted_period_ms = DEFAULT_PERIOD_MS
-        self.panic_delay_ms = 0
-        self.frames = 0
-        self.conflicts = 0
-        self.faults = 0
-        self._said = Once()
-        self._timer: Timer | None = None
-        self._sent_s = 0.0
-
     @property
     def period_ms(self) -> float:
         return max(self.wanted_period_ms, float(self.panic_delay_ms))
@@ -77,6 +66,14 @@ class TelemetryController(BaseStartedModule):
         return merge(self._contents(), self._on_conflict)
 
     def on_init(self) -> None:
+        self.wanted_period_ms = DEFAULT_PERIOD_MS
+        self.panic_delay_ms = 0
+        self.frames = 0
+        self.conflicts = 0
+        self.faults = 0
+        self._said = Once()
+        self._timer: Timer | None = None
+        self._sent_s = 0.0
         self._limited = Limited(self.context.reactor, LOG_INTERVAL_S)
         executor = self.up.command_executor
         executor.register_command(TelemetryFrequencyCommand, self._on_period)

@@ -73,8 +73,8 @@ class FlightModeManager(BaseFlightController):
     location = wants(UpLocationProvider)
     estimator = wants(NavigationEstimator)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
+        super().on_init()
         self.published = 0
         self.choices = 0
         self.is_resumed = False
@@ -88,9 +88,6 @@ class FlightModeManager(BaseFlightController):
         self._resumed_place: Place | None = None
         self._requests: dict[str, float] = {}
         self._continuing = ""
-
-    def on_init(self) -> None:
-        super().on_init()
         self._ground_modes = ground_modes(self.up.get_modules(BaseBoard))
         self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
         for path, problem in self._selector.problems.items():
@@ -222,7 +219,6 @@ class FlightModeManager(BaseFlightController):
         if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
             return
         made = selector.step(situation, max(dt_s, MIN_STEP_S), self._carry_out)
-        self.flight_mode = selector.active
         if made is not None:
             self.published += 1
             self._executor.execute_command(made, self._origin)

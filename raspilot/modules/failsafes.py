@@ -42,16 +42,13 @@ class Failsafes(BasePeriodicModule):
     flight = needs(FlightModeManager)
     plans = wants(Plans)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
         self._acting: str | None = None
         self._is_entering = False
         self._choices = 0
         self._was_linked = False
         self._logged: list[str] = []
         self._said = Once()
-
-    def on_init(self) -> None:
         self._engine = FailsafeEngine(self.config.triggers)
         fence = self.config.fence
         self._fence = FenceWatch(fence)

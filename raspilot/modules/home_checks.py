@@ -39,12 +39,9 @@ class HomeChecks(BasePeriodicModule):
     location = wants(UpLocationProvider)
     plans = wants(Plans)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
         self._has_phone = False
         self._checked: tuple[Place | None, tuple[Border, ...]] | None = None
-
-    def on_init(self) -> None:
         failsafes = self.context.config(FAILSAFE).triggers.values()
         self._returns = any(each.action == Return.NAME for each in failsafes)
         self._navigation = self.context.config(NAVIGATION)

@@ -56,9 +56,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     altitude = needs(UpAltitudeProvider)
     heading = needs(UpHeadingProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.estimator = Estimator()
+    def on_init(self) -> None:
         self.home_altitude_m: float | None = None
         self._state: NavigationState | None = None
         self._is_old = True
@@ -67,8 +65,6 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._sources = FixSources()
         self._doubted = 0
         self._said = Once(MAX_SAID)
-
-    def on_init(self) -> None:
         model = AirframeModel(self.context.config(NAVIGATION))
         self.estimator = Estimator(model)
         self._sag = BatterySag(model.level_throttle)

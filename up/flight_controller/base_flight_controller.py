@@ -27,10 +27,6 @@ class BaseFlightController(BaseStartedModule):
     rx = needs(BaseRXProvider)
     orientation = needs(UpOrientationProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.flight_mode: str | None = None
-
     def on_init(self) -> None:
         self._providers: dict[str, BaseProvider[Any]] = {
             provider.READING: provider for provider in self.up.get_modules(BaseProvider)

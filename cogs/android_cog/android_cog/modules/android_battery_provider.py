@@ -23,10 +23,7 @@ class AndroidBatteryProvider(BaseProvider[float], FailureSource):
     READING = "battery"
     COMMAND = AndroidBatteryCommand
     MAX_AGE_S = READINGS[READING].source_s
-
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.is_low = False
+    is_low = False
 
     def on_init(self) -> None:
         super().on_init()

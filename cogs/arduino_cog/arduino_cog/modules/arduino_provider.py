@@ -59,15 +59,6 @@ class ArduinoProvider(BaseBoard):
 
     serial = needs(SerialProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.status: ArduinoStatusCommand | None = None
-        self.has_motor: bool | None = None
-        self.counters: Counter[str] = Counter()
-        self._status_s = float("-inf")
-        self._alive: Timer | None = None
-        self._refusals_named: set[tuple[str, str]] = set()
-
     def load(self) -> bool:
         """Return True; raises if a controlling Raspberry Pi is configured with thesis framing."""
         if (
@@ -147,6 +138,12 @@ class ArduinoProvider(BaseBoard):
 
     def on_init(self) -> None:
         super().on_init()
+        self.status: ArduinoStatusCommand | None = None
+        self.has_motor: bool | None = None
+        self.counters: Counter[str] = Counter()
+        self._status_s = float("-inf")
+        self._alive: Timer | None = None
+        self._refusals_named: set[tuple[str, str]] = set()
         self.requests = RequestTracker(self.context.reactor, self.serial.send_command)
         self._veto_changed_before = self.up.vetoes.on_changed
         self.up.vetoes.on_changed = self._on_veto_changed

@@ -41,10 +41,6 @@ class PIDTuningsProvider(BaseModule):
     arduino = needs(ArduinoProvider)
     mission_control = wants(BaseMissionControlProvider)
 
-    def __init__(self) -> None:
-        self._is_pushed = False
-        self._is_logged = False
-
     def load(self) -> bool:
         """Return whether the Arduino is the flight controller, so that it uses its gains."""
         return bool(self.context.application.flight_controller == "arduino")
@@ -60,6 +56,8 @@ class PIDTuningsProvider(BaseModule):
         return None if self.current is None else self.current.completed(self._saved)
 
     def on_init(self) -> None:
+        self._is_pushed = False
+        self._is_logged = False
         self._file = PidsFile(self.context.config_folder)
         self._store = GainsStore(self._file, self.context.reactor)
         self._load()

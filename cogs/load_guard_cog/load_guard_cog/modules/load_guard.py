@@ -23,12 +23,7 @@ class LoadGuard(BaseStartedModule):
 
     CONFIG = LOAD_GUARD
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.meter: Meter | None = None
-        self.ram = 0.0
-        self._timer: Timer | None = None
-        self._memory_due_s = float("-inf")
+    meter: Meter | None = None
 
     @property
     def in_panic(self) -> bool:
@@ -58,6 +53,9 @@ class LoadGuard(BaseStartedModule):
         }
 
     def on_init(self) -> None:
+        self.ram = 0.0
+        self._timer: Timer | None = None
+        self._memory_due_s = float("-inf")
         values = self.config
         self._switch = PanicSwitch(
             values.panic_threshold, values.calm_down_threshold, values.dwell_s

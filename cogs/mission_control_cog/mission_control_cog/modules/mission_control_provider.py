@@ -67,8 +67,8 @@ class MissionControlProvider(BaseMissionControlProvider):
     CONFIG = MISSION_CONTROL
     WRITTEN_FILES = (KEYS,)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
+        super().on_init()
         self._uplink: Uplink | None = None
         self._outlets: list[Outlet] = []
         self._audited = {LINK}
@@ -78,9 +78,6 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._events: list[Any] = []
         self._requires_protection = False
         self._audit: AuditLog | None = None
-
-    def on_init(self) -> None:
-        super().on_init()
         config = self.config
         self._role = Role(config.role)
         now_s = self.context.reactor.seconds()

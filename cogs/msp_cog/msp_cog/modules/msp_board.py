@@ -53,32 +53,6 @@ class MspBoard(BaseBoard):
     LINK = "msp"
     TITLE = "the Betaflight board"
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.status: Status | None = None
-        self.curves: tuple[StickCurve, StickCurve] | None = None
-        self.counters: Counter[str] = Counter()
-        self._decoder = MspDecoder()
-        self._poller = Poller()
-        self._known: dict[int, bytes] = {}
-        self._sequence = 0
-        self._rates: tuple[float, float, float] | None = None
-        self._is_heard = False
-        self._receiver = Origin(self.LINK, Role.SENSOR)
-        self._fix = b""
-        self._fix_s = self._heard_s = self._sent_s = float("-inf")
-        self._is_forbidden: bool | None = None
-        self._unanswered_s: float | None = None
-        self._handlers = {
-            messages.ATTITUDE: self._on_attitude,
-            messages.RAW_IMU: self._on_rates,
-            messages.RC: self._on_channels,
-            messages.STATUS: self._on_status,
-            messages.MOTOR: self._on_motor,
-            messages.ANALOG: self._on_analog,
-            messages.RAW_GPS: self._on_gps,
-        }
-
     @property
     def connected(self) -> bool:
         return self._is_heard
@@ -106,6 +80,29 @@ class MspBoard(BaseBoard):
 
     def on_init(self) -> None:
         super().on_init()
+        self.status: Status | None = None
+        self.curves: tuple[StickCurve, StickCurve] | None = None
+        self.counters: Counter[str] = Counter()
+        self._decoder = MspDecoder()
+        self._poller = Poller()
+        self._known: dict[int, bytes] = {}
+        self._sequence = 0
+        self._rates: tuple[float, float, float] | None = None
+        self._is_heard = False
+        self._receiver = Origin(self.LINK, Role.SENSOR)
+        self._fix = b""
+        self._fix_s = self._heard_s = self._sent_s = float("-inf")
+        self._is_forbidden: bool | None = None
+        self._unanswered_s: float | None = None
+        self._handlers = {
+            messages.ATTITUDE: self._on_attitude,
+            messages.RAW_IMU: self._on_rates,
+            messages.RC: self._on_channels,
+            messages.STATUS: self._on_status,
+            messages.MOTOR: self._on_motor,
+            messages.ANALOG: self._on_analog,
+            messages.RAW_GPS: self._on_gps,
+        }
         config = self.config
         self._line = SerialLine(
             self.context.reactor,

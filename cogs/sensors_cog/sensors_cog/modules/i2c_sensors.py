@@ -39,9 +39,9 @@ class I2cSensors(BaseThreadModule):
     orientation = needs(UpOrientationProvider)
     altitude = needs(UpAltitudeProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.open_bus: Callable[[int], Any] = SMBus
+    open_bus: Callable[[int], Any] = SMBus
+
+    def on_init(self) -> None:
         self._buses: dict[int, Any] = {}
         self._slots: dict[str, tuple[SensorSlot, Origin]] = {}
 
