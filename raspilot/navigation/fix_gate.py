@@ -14,7 +14,6 @@ JUMP_M, JUMP_SIGMA = 25.0, 6.0
 REACH_M, MAX_WIND_M_S = 50.0, 20.0
 """A fix is reachable within this distance, at the greatest airspeed with this wind behind."""
 PROOF_FIXES, PROOF_S, PROOF_SPREAD_M = 5, 4.0, 20.0
-MOVING_M_S = 3.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,6 @@ from up.protocols.envelope import (
 from up.quick_dataclass import dataclass
 
 NONCE_BYTES = 16
-KEY_ID_BYTES = 8
 ROLES = ("observer", "operator", "pilot", "admin")
 REFUSALS = ("unknown_key", "revoked", "expired", "changed", "secrecy_required")
 _SALT = b"up handshake 1"

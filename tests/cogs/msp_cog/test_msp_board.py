@@ -182,7 +182,7 @@ def test_a_program_that_ends_leaves_arming_to_the_board(tmp_path):
 
 def test_attack_nothing_arms_and_no_mode_is_taken_without_the_switch(rig):
     executor = rig.up.command_executor
-    assert not executor.has_handlers(ArmCommand)
+    assert not executor.handlers_of(ArmCommand)
     (take,) = executor.handlers_of(FlightModeCommand)
     at(rig, ARMED | ANGLE)
     with pytest.raises(CommandRefusedError) as refused:
