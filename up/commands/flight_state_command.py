@@ -24,6 +24,18 @@ class FlightStateCommand(BaseCommand):
 
 
 @dataclass(frozen=True, slots=True)
+class ServoCommand(BaseCommand):
+    """The four servo outputs that the board drives now, in microseconds of pulse."""
+
+    NAME = "up.servo.update"
+    ROLES = frozenset({Role.BOARD})
+    ailerons_us: int = value(key="ailerons", minimum=0, maximum=3000, unit="us")
+    elevator_us: int = value(key="elevator", minimum=0, maximum=3000, unit="us")
+    throttle_us: int = value(key="throttle", minimum=0, maximum=3000, unit="us")
+    rudder_us: int = value(key="rudder", minimum=0, maximum=3000, unit="us")
+
+
+@dataclass(frozen=True, slots=True)
 class FlightBatteryCommand(BaseCommand):
     """The voltage of the flight battery under its present load, and the load where it is known."""
 
@@ -44,6 +56,26 @@ class FlightModeCommand(BaseCommand):
     TITLE = "Flight mode {}"
     ROLES = frozenset({Role.OPERATOR})
     mode: str = value(max_length=32)
+
+
+@dataclass(frozen=True, slots=True)
+class ArmCommand(BaseCommand):
+    """Arm; the board decides, and an arming veto or a missing beacon refuses it before."""
+
+    NAME = "up.arm"
+    TITLE = "Arm"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True
+
+
+@dataclass(frozen=True, slots=True)
+class DisarmCommand(BaseCommand):
+    """Disarm; refused without a fresh beacon and unless the throttle has been low for 2 s."""
+
+    NAME = "up.disarm"
+    TITLE = "Disarm"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True
 
 
 DEFAULT_LIMITS_DEG = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from typing import Literal
 
 from up.doctor.machine import Machine
-from up.flight_log.flights_folder import default_folder
+from up.flight_log.flight_file import default_folder
 from up.quick_dataclass import dataclass
 from up.version import BUILT_S, VERSION
 

@@ -10,11 +10,10 @@ from tests.cogs.android_cog.flight import Flight
 from tests.cogs.peers import UdpPeer, connect
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.tools import unavailable
-from up.commands.arming_commands import ArmCommand
+from up.commands.flight_state_command import ArmCommand
 from up.commands.location_command import LocationCommand
-from up.commands.panic_command import PanicCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
-from up.commands.system_commands import LinkStateCommand, SystemStopCommand
+from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStopCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.life_cycle import BootStoppedError
 from up.mode import Mode
