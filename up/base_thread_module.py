@@ -66,7 +66,6 @@ class BaseThreadModule(BaseStartedModule):
         self.context.reactor.callFromThread(call, *arguments)
 
     def _loop(self) -> None:
-        """Do one piece of the work."""
         raise NotImplementedError(f"{self.class_name} must override _loop")
 
     def _run(self) -> None:

@@ -55,7 +55,6 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def is_wanted(self) -> bool:
-        """Return whether a subscriber of telemetry wants it."""
         return any(
             getattr(getattr(handler, "__self__", None), "wants_telemetry", True)
             for handler in self.up.command_executor.handlers_of(TelemetryCommand)

@@ -54,7 +54,6 @@ class Vetoes:
 
     @property
     def all(self) -> list[str]:
-        """Return every reason, for display."""
         own = [f"{name}: {reason}" for name, reason in self._own.items()]
         others = [f"{who}: {each}" for who, some in self._reported.items() for each in some]
         return own + others

@@ -38,12 +38,10 @@ class BoardAuthority:
 
     @property
     def is_auto(self) -> bool:
-        """Return whether the pilot's switch is at AUTO."""
         return self.state is not None and self.state.is_auto
 
     @property
     def is_failsafe(self) -> bool:
-        """Return whether the receiver is lost."""
         return self.state is not None and self.state.is_failsafe
 
     @property

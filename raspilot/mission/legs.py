@@ -98,7 +98,6 @@ class Course:
         return Point(0.0, 0.0) if is_home else None
 
     def radius_m(self, number: int) -> float:
-        """Return the radius that is flown around an item."""
         return max(self._least_m, self.items[number - 1].radius_m or self._loiter_radius_m)
 
     def legs(self) -> Iterator[Leg]:

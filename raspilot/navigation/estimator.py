@@ -356,7 +356,6 @@ class Estimator:
     def _correct(
         self, fix: Fix, point: Point, at: AirPoint, velocity: tuple[float, float] | None
     ) -> None:
-        """Take a fix in flight."""
         horizontal, then = self._horizontal, self._fixed
         assert horizontal is not None and then is not None
         dt = at.time_s - then.time_s

@@ -48,7 +48,6 @@ class Fix:
 
     @property
     def velocity_m_s(self) -> tuple[float, float] | None:
-        """Return the ground velocity to north and east."""
         if self.speed_m_s is None or (self.course_deg is None and self.speed_m_s > 0.5):
             return None
         course = math.radians(self.course_deg or 0.0)

@@ -51,7 +51,6 @@ class HorizontalFilter:
 
     @property
     def is_oriented(self) -> bool:
-        """Return whether the offset of the yaw is known at all."""
         return abs(complex(self.x[2], self.x[3])) > MIN_FACTOR
 
     def set_offset(self, offset_rad: float, sd_rad: float) -> None:
@@ -185,7 +184,6 @@ class HorizontalFilter:
         return limited(total, 0.0, _MAX_VARIANCE)
 
     def blur(self, sd_m: float) -> None:
-        """Add an uncertainty of the position."""
         for index in (0, 1):
             self.p[index][index] = min(self.p[index][index] + sd_m * sd_m, MAX_SD_M**2)
 

@@ -41,7 +41,6 @@ class Beacons:
         return number
 
     def was_sent(self, number: int) -> bool:
-        """Return whether a frame of this run had this number."""
         return self._run_start <= number < self._next
 
     def age_s(self, number: int) -> float | None:

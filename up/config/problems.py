@@ -100,7 +100,6 @@ class Problems:
         key: str = "",
         value: str = "",
     ) -> None:
-        """Add a problem, as a Report."""
         if len(self.found) == MAX_PROBLEMS:
             what = f"more than {MAX_PROBLEMS} problems, the rest is not shown"
             code, key, value = "more_problems", "", ""

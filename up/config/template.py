@@ -69,7 +69,6 @@ def _section(name: str, schema: Schema, value: Any, indent: str) -> Iterator[str
 
 
 def _pair(name: str, value: Any, indent: str) -> Iterator[str]:
-    """Yield the lines of `name: value` for a plain value."""
     if isinstance(value, dict) and value:
         yield f"{indent}{name}:"
         for key, inner in value.items():

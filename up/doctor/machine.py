@@ -34,7 +34,6 @@ class Machine:
             return ""
 
     def devices(self, *patterns: str) -> list[Path]:
-        """Return the devices with such names in /dev."""
         return sorted(each for name in patterns for each in (self._root / "dev").glob(name))
 
     def can_open(self, path: Path) -> bool:

@@ -74,7 +74,6 @@ def _within(key: str, minimum: float, maximum: float, value: Any) -> Any:
 
 
 def _fields() -> Iterator[_Field]:
-    """Yield the fields in the order of the wire."""
     for servo in _SERVOS:
         yield _flag(f"{servo}.reversed")
         yield _number(f"{servo}.trim_us", -200, 200)

@@ -150,7 +150,6 @@ class McapWriter:
         return len(times_ns)
 
     def add_metadata(self, name: str, values: Mapping[str, str]) -> None:
-        """Write a record of texts by name."""
         record = _record(Opcode.METADATA, _text(name) + _map(values))
         index = METADATA_INDEX.pack(self.size, len(record)) + _text(name)
         self._put(record)

@@ -40,7 +40,6 @@ class StepTimer:
             gc.callbacks.append(_Collections.note)
 
     def start(self) -> None:
-        """Begin a step."""
         self._collected_s = _Collections.total_s
         self._used = resource.getrusage(resource.RUSAGE_THREAD)
         self._started_s = perf_counter()

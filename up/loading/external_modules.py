@@ -21,7 +21,6 @@ class ModuleEntry:
 
     @property
     def path(self) -> str:
-        """Return the fully qualified name."""
         return f"{self.prefix}.{self.class_name}"
 
     def problems(self) -> Iterable[tuple[str, str, str]]:

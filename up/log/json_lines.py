@@ -61,7 +61,6 @@ class RotatingFile:
         self._put(line)
 
     def close(self) -> None:
-        """Close the file; idempotent."""
         descriptor, self._descriptor = self._descriptor, -1
         if descriptor >= 0:
             os.close(descriptor)

@@ -94,7 +94,6 @@ class PlanTransfer:
         self._collect(DOWNLOAD)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take any message of the aircraft."""
         if self._on_end is None or message.data.get("plan") not in (None, self.plan):
             return
         try:
@@ -110,7 +109,6 @@ class PlanTransfer:
             self._end(PlanOutcome("unreadable", sanitize_text(str(error), 300)))
 
     def stop(self) -> None:
-        """End without an outcome."""
         self._on_end = None
         self._requests.stop()
         cancel(self._timer)

@@ -102,7 +102,6 @@ def _get(content: Content, path: tuple[str, str], default: Any) -> Any:
 
 
 def _set(content: Content, path: tuple[str, str], change: Any) -> None:
-    """Change a number, where there is one."""
     value = _get(content, path, None)
     if value is not None:
         content[path[0]][path[1]] = change(value)

@@ -97,7 +97,6 @@ class CheckedDecoder:
         self._newest_byte_s = 0.0
 
     def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
-        """Return the frames that `data` completes, in order."""
         if self._tail or self._is_skipping:
             self.expire(now)
         self._newest_byte_s = now

@@ -102,7 +102,6 @@ class ControlLease(Generic[T]):
         return hmac.compare_digest(token, self.token)
 
     def live_owner(self, now_s: float) -> T | None:
-        """Return the owner while it is alive."""
         return self.owner if self.state(now_s) is State.OWNED else None
 
     def acquire(self, owner: T, token: str | None) -> T | None:

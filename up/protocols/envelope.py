@@ -119,7 +119,6 @@ class Stream:
         return payload
 
     def _protect(self, place: bytes, payload: bytes) -> bytes:
-        """Return the MAC and the protected payload."""
         return self._mac(place, payload) + payload
 
     def _unprotect(self, place: bytes, protected: bytes) -> bytes:

@@ -136,7 +136,6 @@ class GeneralMessageProtocol(Protocol):
         return self.output.send_newest(message)
 
     def close(self) -> None:
-        """Send waiting data and close; aborts if the peer does not take it within 1 s."""
         if self._is_open:
             self._is_open = False
             self.output.finish()

@@ -39,7 +39,6 @@ class _Handshake:
         return tuple(getattr(self, each.name) for each in fields(self))
 
     def encode(self, aircraft: bytes, secret: bytes) -> bytes:
-        """Return the body, with its MAC at the end."""
         body = bytes((HANDSHAKE, self.KIND)) + self.FORM.pack(*self._fields())
         return body + _mac(self.LABEL, aircraft, secret, body)
 

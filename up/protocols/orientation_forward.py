@@ -59,7 +59,6 @@ class OrientationDecoder:
         self._remainder = b""
 
     def feed(self, data: bytes) -> list[OrientationValues]:
-        """Return the frames that `data` completes, in order."""
         length = len(data)
         if length == FRAME_SIZE and not self._remainder:
             # The usual case, flat for speed: `_is_in_range` by squares, exact for 32-bit floats.

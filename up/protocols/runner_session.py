@@ -46,7 +46,6 @@ class RunnerSession:
         self._session = GroundSession(RUNNER, key_id, secret, random)
 
     def hello(self) -> bytes:
-        """Return the first line."""
         return to_line(self._session.hello())
 
     def request(self, answer: bytes, request: bytes) -> bytes:

@@ -147,7 +147,6 @@ class SerialLine:
             self._lost("reopening")
 
     def fileno(self) -> int:
-        """Return the descriptor; -1 while the port is closed."""
         return self._number
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name

@@ -34,7 +34,6 @@ class ThesisDecoder:
         self._newest_byte_s = 0.0
 
     def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
-        """Return the frames that `data` completes, in order."""
         frames = self.expire(now)
         self._newest_byte_s = now
         return frames + self._take(self._tail + data, is_silent=False)

@@ -43,7 +43,6 @@ class DiskThread:
         return done
 
     def wait(self) -> None:
-        """Wait until all work is done."""
         if self._newest is not None:
             self._newest.wait()
 

@@ -110,11 +110,9 @@ class PhoneLink:
         return self._owner is not None and self._owner.send_newest(message)
 
     def is_stream(self, link: GeneralMessageLink) -> bool:
-        """Return whether a link is a TCP connection."""
         return link is not self.datagrams
 
     def build(self) -> GeneralMessageProtocol:
-        """Return the protocol of a new TCP connection."""
         return GeneralMessageProtocol(self._clock, **self._callbacks)
 
     async def close(self) -> None:

@@ -53,7 +53,6 @@ class OriginTexts:
         self._texts: dict[int, tuple[Origin, str]] = {}
 
     def ended(self, text: str, origin: Origin) -> bytes:
-        """Return a JSON object with its origin added."""
         known = self._texts.get(id(origin))
         if known is None:
             if len(self._texts) >= _ORIGINS_LIMIT:

@@ -157,7 +157,6 @@ class LogForwarder:
         globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
     def __call__(self, event: LogEvent) -> None:
-        """Forward one event, formatted immediately."""
         level = level_of(event)
         if level >= LogLevel.info:
             fields = fields_of(event) if "code" in event else {}

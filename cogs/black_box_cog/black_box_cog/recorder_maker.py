@@ -63,7 +63,6 @@ def _metadata(up: Any, context: Any) -> FlightMetadata:
 
 
 def _aircraft(up: Any, context: Any) -> str:
-    """Return the aircraft's name on the ground."""
     provider = up.mission_control_provider
     config = None if provider is None or provider.CONFIG is None else provider.config
     return getattr(config, "aircraft", "") or context.instance or "default"

@@ -37,7 +37,6 @@ class GpsdDecoder:
 
     @property
     def watch(self) -> bytes:
-        """Return the request for reports."""
         wanted = {"enable": True, "json": True} | ({"device": self._device} if self._device else {})
         return b"?WATCH=" + json.dumps(wanted).encode() + b";\n"
 

@@ -50,7 +50,6 @@ class NmeaDecoder:
         self._lines = LineDecoder(MAX_LINE_BYTES)
 
     def feed(self, data: bytes) -> Iterator[GpsFix]:
-        """Yield the fixes that the bytes complete."""
         before = self._lines.dropped_too_long
         lines = self._lines.feed(data)
         self.counters["noise"] += self._lines.dropped_too_long - before

@@ -66,7 +66,6 @@ class Receiver:
         }  # fmt: skip
 
     def on_bytes(self, data: bytes) -> None:
-        """Take bytes that arrive now."""
         for fix in self.decoder.feed(data):
             self._newest, self._newest_s = fix, self._seconds()
             self._counters[self._judge(fix)] += 1

@@ -67,7 +67,6 @@ class SerialSource:
 
     @property
     def baud_rate(self) -> int:
-        """Return the speed of the present attempt."""
         if not self._decoder.set_up:
             return self._speeds[self._attempt % len(self._speeds)]
         if self._is_at_configured:

@@ -36,7 +36,6 @@ class UbxDecoder:
         self._buffer.clear()
 
     def feed(self, data: bytes) -> Iterator[GpsFix]:
-        """Yield the fixes that the bytes complete."""
         buffer = self._buffer
         buffer += data
         while True:

@@ -44,7 +44,6 @@ class EndpointConfig:
 
     @property
     def granted(self) -> Role:
-        """Return the role of the endpoint's Commands."""
         if self.role != "auto":
             return Role(self.role)
         return Role.OPERATOR if self.is_safe else Role.OBSERVER

@@ -42,7 +42,6 @@ class AuditLog:
         self._disk.run(self._file.open).addCallbacks(self._write, self._on_failed)
 
     def on_answered(self, command: CommandAnsweredCommand) -> None:
-        """Write one outcome."""
         if not self._is_open or command.link not in self._links:
             return
         if not command.key and not self._strangers.take():

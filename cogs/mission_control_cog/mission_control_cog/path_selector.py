@@ -56,7 +56,6 @@ class PathSelector:
         self._paths[path].answered_s = now_s
 
     def failed(self, path: int, now_s: float) -> None:
-        """Note that a probe or an attempt failed."""
         self._paths[path].failed_s = now_s
         self._paths[path].healthy_since_s = inf
 

@@ -151,7 +151,6 @@ def _pulse(value: Any) -> Any:
 
 
 def _without_zeros(counters: Mapping[str, Any]) -> Tree:
-    """Return the counters that have counted."""
     parts = {
         part: {name: count for name, count in counts.items() if count}
         for part, counts in counters.items()

@@ -125,7 +125,6 @@ class UplinkPaths:
         return OnInterface(self._reactor, self._names[path]), limit_s
 
     def failed(self) -> None:
-        """Note that the attempt failed."""
         self._is_leaving = False
         self._selector.failed(self._attempted, self._reactor.seconds())
 
@@ -135,7 +134,6 @@ class UplinkPaths:
         self._selector.carries(self._attempted, self._reactor.seconds())
 
     def ended(self) -> None:
-        """Note that the link has ended."""
         self._transport = None
         if not self._is_leaving:
             self._selector.lost(self._reactor.seconds())

@@ -40,7 +40,6 @@ class MspDecoder:
         self._buffer = b""
 
     def reset(self) -> None:
-        """Forget an unfinished frame."""
         self._buffer = b""
 
     def feed(self, data: bytes) -> list[tuple[int, bytes]]:

@@ -66,7 +66,6 @@ class Status:
 
     @property
     def reasons(self) -> list[str]:
-        """Return the reasons against arming as words."""
         return [name for bit, name in enumerate(ARMING_DISABLED) if self.arming_disabled >> bit & 1]
 
 

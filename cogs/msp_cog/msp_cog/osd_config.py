@@ -80,7 +80,6 @@ class OsdConfig:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Return columns and rows."""
         columns, rows = self.grid.split("x")
         return int(columns), int(rows)
 

@@ -21,7 +21,6 @@ class OsdScreen:
         self.forget()
 
     def put(self, row: int, column: int, text: str) -> None:
-        """Write a text that fits into its row."""
         self._shown[row][column : column + len(text)] = text
 
     def put_all(self, places: Mapping[str, tuple[int, int]], text: Callable[[str], str]) -> None:

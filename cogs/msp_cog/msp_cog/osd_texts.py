@@ -100,7 +100,6 @@ class OsdTexts:
         return f"BAT {shown}V"
 
     def _warning(self) -> str:
-        """Return one of the warnings, or nothing."""
         if self._is_stale():
             return "NO DATA"
         warnings = list(dict.fromkeys(self._warnings()))

@@ -38,7 +38,6 @@ class Poller:
         self._owed = 0
 
     def due(self) -> Sequence[int]:
-        """Return the requests of this tick."""
         if self._owed > MAX_WAITING_TICKS * (len(EVERY_TICK) + 1):
             self.skipped += 1
             return ()

@@ -32,7 +32,6 @@ class ReadingForward(BaseStartedModule):
     source: Any
 
     def load(self) -> bool:
-        """Return whether the firmware is the thesis's."""
         return bool(self.context.config(ARDUINO).framing == "thesis")
 
     def pack(self, value: Any) -> bytes:

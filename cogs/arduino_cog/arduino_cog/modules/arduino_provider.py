@@ -193,11 +193,9 @@ class ArduinoProvider(BaseBoard):
         self._stop_alive()
 
     def on_line_heard(self) -> None:
-        """Report that the Arduino is connected."""
         self.report_heard()
 
     def on_line_silent(self) -> None:
-        """Report that the Arduino is gone."""
         self.status = None
         self.requests.fail_all(self.absent)
         self.report_silent()

@@ -133,7 +133,6 @@ class MspBoard(BaseBoard):
         self._line.write_newest(messages.SET_RAW_RC, encode(messages.SET_RAW_RC, payload))
 
     def on_bytes(self, data: bytes) -> None:
-        """Take bytes of the board."""
         replies = self._decoder.feed(data)
         counters = self._decoder.counters
         self._poller.on_answers(counters.frames + counters.refused)
