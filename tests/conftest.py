@@ -1,6 +1,7 @@
 """What holds for every test."""
 
 import gc
+import inspect
 import os
 import shutil
 import signal
@@ -53,6 +54,18 @@ def pytest_runtest_setup(item):
     # Not the other way round: Chromium sets the priority of its pages to 0.
     if item.path.name not in REAL_TIME_FILES:
         os.setpriority(os.PRIO_PROCESS, 0, max(NICE, os.getpriority(os.PRIO_PROCESS, 0)))
+
+
+def pytest_pyfunc_call(pyfuncitem):
+    """Run a test that is a coroutine on the real reactor."""
+    if not inspect.iscoroutinefunction(pyfuncitem.obj):
+        return None
+    from tests.support.reactor import run_in_reactor
+
+    names = inspect.signature(pyfuncitem.obj).parameters
+    given = {name: pyfuncitem.funcargs[name] for name in names}
+    run_in_reactor(lambda: pyfuncitem.obj(**given))
+    return True
 
 
 @pytest.fixture(scope="session", autouse=True)

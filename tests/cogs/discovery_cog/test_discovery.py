@@ -41,35 +41,29 @@ def system(tmp_path, port=0, mode=Mode.AUTO):
 
 
 @pytest.mark.parametrize("content", [b"", b"hello", b"\x00\xff", b"x" * 512])
-def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content):
-    async def ask():
-        up = system(tmp_path)
-        life = LifeCycle(up)
-        await life.start()
-        phone = UdpPeer(reactor)
-        phone.say(content, up.ports["discovery"])
-        await until(lambda: phone.datagrams)
-        assert phone.datagrams == [b"127.0.0.1"]
-        await phone.close()
-        await life.stop()
-
-    run_in_reactor(ask)
+async def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content):
+    up = system(tmp_path)
+    life = LifeCycle(up)
+    await life.start()
+    phone = UdpPeer(reactor)
+    phone.say(content, up.ports["discovery"])
+    await until(lambda: phone.datagrams)
+    assert phone.datagrams == [b"127.0.0.1"]
+    await phone.close()
+    await life.stop()
 
 
-def test_a_broadcast_is_answered(tmp_path):
-    async def ask():
-        up = system(tmp_path)
-        life = LifeCycle(up)
-        await life.start()
-        phone = UdpPeer(reactor, "127.0.0.1")
-        phone.transport.setBroadcastAllowed(True)
-        phone.say(b"where?", up.ports["discovery"], "127.255.255.255")
-        await until(lambda: phone.datagrams)
-        assert phone.datagrams == [b"127.0.0.1"]
-        await phone.close()
-        await life.stop()
-
-    run_in_reactor(ask)
+async def test_a_broadcast_is_answered(tmp_path):
+    up = system(tmp_path)
+    life = LifeCycle(up)
+    await life.start()
+    phone = UdpPeer(reactor, "127.0.0.1")
+    phone.transport.setBroadcastAllowed(True)
+    phone.say(b"where?", up.ports["discovery"], "127.255.255.255")
+    await until(lambda: phone.datagrams)
+    assert phone.datagrams == [b"127.0.0.1"]
+    await phone.close()
+    await life.stop()
 
 
 def test_a_port_in_use_is_a_veto_and_the_system_runs(tmp_path):

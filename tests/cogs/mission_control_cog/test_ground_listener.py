@@ -169,21 +169,18 @@ def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
         run_in_reactor(boot)
 
 
-def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
-    async def boot():
-        a = Aircraft(tmp_path / "a", None, "listener: {port: 0, address: 203.0.113.1}\n")
-        life = LifeCycle(a.up)
-        await life.start()
-        (reason,) = a.up.vetoes.own.values()
-        assert "(mission_control.yml: listener.address)" in reason
-        await life.stop()
-        async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
-            monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
-            peer = await connect(reactor, b.up.ports["ground"])
-            await peer.closed
-            assert peer.received == b""
-
-    run_in_reactor(boot)
+async def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
+    a = Aircraft(tmp_path / "a", None, "listener: {port: 0, address: 203.0.113.1}\n")
+    life = LifeCycle(a.up)
+    await life.start()
+    (reason,) = a.up.vetoes.own.values()
+    assert "(mission_control.yml: listener.address)" in reason
+    await life.stop()
+    async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
+        monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
+        peer = await connect(reactor, b.up.ports["ground"])
+        await peer.closed
+        assert peer.received == b""
 
 
 class Station:
