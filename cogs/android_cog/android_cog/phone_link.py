@@ -109,9 +109,6 @@ class PhoneLink:
         """Send in place of an older waiting message."""
         return self._owner is not None and self._owner.send_newest(message)
 
-    def is_stream(self, link: GeneralMessageLink) -> bool:
-        return link is not self.datagrams
-
     def build(self) -> GeneralMessageProtocol:
         return GeneralMessageProtocol(self._clock, **self._callbacks)
 

@@ -32,8 +32,4 @@ class CooperativeThrottle:
 
     def disable(self) -> None:
         """Stop pausing: the program is ending."""
-        self._pause = _no_pause
-
-
-def _no_pause(seconds: float) -> None:
-    """Return without a pause."""
+        self._pause = lambda _: None

@@ -193,7 +193,7 @@ class AndroidProvider(BaseStartedModule):
         self.up.command_receiver.receive_malformed(fault, self._command_link_of(link))
 
     def _command_link_of(self, link: GeneralMessageLink) -> Any:
-        return self._stream_link if self._phone.is_stream(link) else self._datagram_link
+        return self._datagram_link if link is self._phone.datagrams else self._stream_link
 
     def _permits_orientation(self, host: str) -> bool:
         """Return whether a host may send orientation: the phone's, or any without a phone."""
