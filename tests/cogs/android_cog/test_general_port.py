@@ -1,5 +1,3 @@
-"""The phone's General Message port."""
-
 import json
 import socket
 

@@ -1,5 +1,3 @@
-"""The phone's orientation port."""
-
 import struct
 
 import pytest

@@ -1,5 +1,3 @@
-"""Panic Mode reaches the phone."""
-
 from tests.cogs.android_cog.flight import Flight
 from tests.support.reactor import until
 from up.commands.system_commands import PanicCommand

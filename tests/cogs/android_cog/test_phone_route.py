@@ -1,5 +1,3 @@
-"""Commands that are carried to the phone."""
-
 from android_cog.phone_route import PENDING_LIMIT
 
 from tests.cogs.android_cog.flight import Asker, Flight

@@ -1,5 +1,3 @@
-"""The phone finds the Raspberry Pi."""
-
 import socket
 
 import pytest
@@ -40,26 +38,20 @@ def system(tmp_path, port=0, mode=Mode.AUTO):
                     config={"discovery.yml": f"port: {port}\n"})  # fmt: skip
 
 
-@pytest.mark.parametrize("content", [b"", b"hello", b"\x00\xff", b"x" * 512])
-async def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content):
-    up = system(tmp_path)
-    life = LifeCycle(up)
-    await life.start()
-    phone = UdpPeer(reactor)
-    phone.say(content, up.ports["discovery"])
-    await until(lambda: phone.datagrams)
-    assert phone.datagrams == [b"127.0.0.1"]
-    await phone.close()
-    await life.stop()
-
-
-async def test_a_broadcast_is_answered(tmp_path):
+@pytest.mark.parametrize(
+    ("content", "to"),
+    [
+        *((content, "127.0.0.1") for content in (b"", b"hello", b"\x00\xff", b"x" * 512)),
+        (b"a broadcast", "127.255.255.255"),
+    ],
+)
+async def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content, to):
     up = system(tmp_path)
     life = LifeCycle(up)
     await life.start()
     phone = UdpPeer(reactor, "127.0.0.1")
     phone.transport.setBroadcastAllowed(True)
-    phone.say(b"where?", up.ports["discovery"], "127.255.255.255")
+    phone.say(content, up.ports["discovery"], to)
     await until(lambda: phone.datagrams)
     assert phone.datagrams == [b"127.0.0.1"]
     await phone.close()

@@ -1,5 +1,3 @@
-"""The daemon's page for Prometheus."""
-
 import socket
 
 import pytest

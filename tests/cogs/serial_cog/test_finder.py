@@ -1,5 +1,3 @@
-"""Finding an Arduino among the serial ports."""
-
 from types import SimpleNamespace
 
 import pytest

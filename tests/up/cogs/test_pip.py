@@ -1,5 +1,3 @@
-"""Running pip: the status line of a terminal."""
-
 import pty
 import sys
 

@@ -1,5 +1,3 @@
-"""UDP ports."""
-
 import gc
 import socket
 from itertools import pairwise
