@@ -1,7 +1,5 @@
 """A module with its own thread, for blocking work (thesis 3.2.2)."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The mode of the system, as telemetry shows it (thesis 2.4.7, 4.1.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

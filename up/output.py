@@ -1,7 +1,5 @@
 """The output of command line programs: text for people, JSON lines for other programs."""
 
-from __future__ import annotations
-
 import json
 import os
 import sys

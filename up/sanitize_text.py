@@ -1,7 +1,5 @@
 """Texts from the air, made harmless for a terminal."""
 
-from __future__ import annotations
-
 import unicodedata
 
 _WIDE = ("W", "F")

@@ -1,7 +1,5 @@
 """Collects every module's telemetry, merges it and sends it (thesis 4.1.2, 4.1.5)."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping

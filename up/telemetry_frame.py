@@ -1,7 +1,5 @@
 """The newest frame of telemetry, for adapters that send it on in another format."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

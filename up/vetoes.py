@@ -1,7 +1,5 @@
 """The arming vetoes, by name."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from up.cleanup import add_cleanup

@@ -1,7 +1,5 @@
 """The control loop on the Raspberry Pi: from an attitude to servo positions (thesis 3.3.2)."""
 
-from __future__ import annotations
-
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 

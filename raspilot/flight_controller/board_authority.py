@@ -1,7 +1,5 @@
 """What the board lets the Raspberry Pi do, and the request that it may fly."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.logger import Logger

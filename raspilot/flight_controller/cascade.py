@@ -1,7 +1,5 @@
 """Two PID controllers in series: angle to rotation rate to servo (thesis 3.3.2)."""
 
-from __future__ import annotations
-
 import math
 
 from up.commands.gains import Gains

@@ -1,7 +1,5 @@
 """The one place that decides what the aircraft does at AUTO, and publishes it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace

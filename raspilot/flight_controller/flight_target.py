@@ -1,7 +1,5 @@
 """Where the active mode flies to: for telemetry, for a restart, and as the ground requires."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from raspilot.flight_controller.flight_memory import FlightMemory

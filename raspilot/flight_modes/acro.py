@@ -1,7 +1,5 @@
 """The sticks pass through, by the Raspberry Pi."""
 
-from __future__ import annotations
-
 from up.flight_modes.demand import SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 

@@ -1,7 +1,5 @@
 """CIRCLE: a gentle turn that needs no position."""
 
-from __future__ import annotations
-
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from up.config import ConfigFile, key
 from up.flight_modes.demand import AttitudeDemand, Bank, Demand, PathDemand

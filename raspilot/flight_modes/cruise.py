@@ -1,7 +1,5 @@
 """CRUISE: holds course and altitude until sticks or ground change them."""
 
-from __future__ import annotations
-
 from raspilot.flight_controller.sticks import deflection
 from up.flight_modes.demand import Bank, Course, Demand, Line, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation

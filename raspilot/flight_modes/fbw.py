@@ -1,7 +1,5 @@
 """Fly By Wire on the Raspberry Pi (thesis 3.3.2)."""
 
-from __future__ import annotations
-
 from raspilot.flight_controller import sticks
 from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.flight_modes.demand import AttitudeDemand

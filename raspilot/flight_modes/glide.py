@@ -1,7 +1,5 @@
 """GLIDE: motor off, towards home."""
 
-from __future__ import annotations
-
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from raspilot.navigation.planning import airspeed_for_wind_m_s, circle_around, course_to_deg
 from up.flight_modes.demand import AttitudeDemand, Bank, Circle, Demand, PathDemand

@@ -1,7 +1,5 @@
 """GUIDED: flies to the target that the ground requested, and circles there."""
 
-from __future__ import annotations
-
 from raspilot.navigation.planning import circle_around, distance_m
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand

@@ -1,7 +1,5 @@
 """LAND: descends in a circle, then glides to the ground against the wind."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from enum import Enum

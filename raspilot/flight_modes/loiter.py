@@ -1,7 +1,5 @@
 """LOITER: circles where it was entered."""
 
-from __future__ import annotations
-
 from raspilot.navigation.planning import circle_abeam, circle_around
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand

@@ -1,7 +1,5 @@
 """MISSION: flies the items of the mission in use, one after the other."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

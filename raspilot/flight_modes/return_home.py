@@ -1,7 +1,5 @@
 """RETURN: climbs, flies home and circles there, or lands."""
 
-from __future__ import annotations
-
 from raspilot.navigation.planning import (
     airspeed_for_wind_m_s,
     circle_around,

@@ -1,7 +1,5 @@
 """TAKEOFF: a hand launch."""
 
-from __future__ import annotations
-
 from enum import Enum
 
 from raspilot.flight_controller import sticks

@@ -1,7 +1,5 @@
 """Whether a mission or a fence can be flown as a whole."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence

@@ -1,7 +1,5 @@
 """The legs of a mission: straight lines between items, and the turns from one to the next."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import field

@@ -1,7 +1,5 @@
 """Flies home, or what failsafe.yml says, when something fails in flight."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

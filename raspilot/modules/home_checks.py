@@ -1,7 +1,5 @@
 """Forbids arming while home is missing, or is outside the fence."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from raspilot.failsafe.config import FAILSAFE

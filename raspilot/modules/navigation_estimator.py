@@ -1,7 +1,5 @@
 """The reading ``navigation``: where the aircraft is, how it moves, and how sure that is."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Notices an event loop that is blocked again and again, and stops optional modules."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """The keys of flight modes, failsafes and navigation, read and set by a ground."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

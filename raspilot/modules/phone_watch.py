@@ -1,7 +1,5 @@
 """Tells the runner whether the phone of this instance is connected, and whether it is armed."""
 
-from __future__ import annotations
-
 from up.base_started_module import BaseStartedModule
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.system_commands import LinkStateCommand

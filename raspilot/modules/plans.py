@@ -1,7 +1,5 @@
 """The mission and the fence in use: upload, read back, progress, telemetry (docs/mission.md)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

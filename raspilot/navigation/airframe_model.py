@@ -1,7 +1,5 @@
 """What the airframe needs for an airspeed: sink, angle of attack, throttle, load."""
 
-from __future__ import annotations
-
 import math
 
 from up.earth import GRAVITY_M_S2

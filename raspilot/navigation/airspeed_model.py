@@ -1,7 +1,5 @@
 """The airspeed and the climb that pitch, bank and throttle cause; no sensor of the air needed."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of

@@ -1,7 +1,5 @@
 """The navigation estimator: position, velocity, wind and airspeed from attitude and late fixes."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """Fixes of a satellite receiver: why one is rejected, and which source of them is doubted."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 

@@ -1,7 +1,5 @@
 """The Kalman filter of position, heading offset, airspeed factor and wind, and the mean wind."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.air_path import AirPoint

@@ -1,7 +1,5 @@
 """Whether the motor gives the thrust that the throttle demands."""
 
-from __future__ import annotations
-
 import math
 from copy import copy
 

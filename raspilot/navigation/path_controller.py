@@ -1,7 +1,5 @@
 """From a path, an altitude and an airspeed to an attitude and a throttle."""
 
-from __future__ import annotations
-
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from raspilot.navigation.lateral import LateralGuidance
 from raspilot.navigation.limits import limited

@@ -1,7 +1,5 @@
 """Vertical control: throttle holds the total energy, pitch divides it (Lambregts)."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of

@@ -1,7 +1,5 @@
 """``up update``: upgrades Up from its installation source."""
 
-from __future__ import annotations
-
 import argparse
 import importlib.metadata
 import json

@@ -1,7 +1,5 @@
 """``up gather``: installs and registers the cogs of the Cogfile (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Sequence

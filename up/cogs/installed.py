@@ -1,7 +1,5 @@
 """Whether a cog is installed, and from the source that the Cogfile names."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import json

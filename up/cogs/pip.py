@@ -1,7 +1,5 @@
 """One call of pip that installs all missing cogs into this interpreter's environment."""
 
-from __future__ import annotations
-
 import importlib.metadata
 import os
 import subprocess

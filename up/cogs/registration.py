@@ -1,7 +1,5 @@
 """Finds the Registrant of a cog and runs it."""
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import importlib.util

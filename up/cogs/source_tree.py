@@ -1,7 +1,5 @@
 """The distribution metadata of a source folder, read without running its code."""
 
-from __future__ import annotations
-
 import ast
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """The base of every cog's Registrant (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import inspect
 from pathlib import Path
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """Beacons: the age of the newest telemetry that the sender of a Command had received."""
 
-from __future__ import annotations
-
 from collections import deque
 from random import Random, SystemRandom
 

@@ -1,7 +1,5 @@
 """The bus: delivers every Command to its subscribers (thesis 4.1.4)."""
 
-from __future__ import annotations
-
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Coroutine

@@ -1,7 +1,5 @@
 """The flight: what the board reports of it, what the ground requests, its limits."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass

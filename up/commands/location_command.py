@@ -1,7 +1,5 @@
 """The position of the aircraft."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass

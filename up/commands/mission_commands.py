@@ -1,7 +1,5 @@
 """Upload, read back and continue a mission or a fence (docs/mission.md)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from up.commands.command import BaseCommand, value

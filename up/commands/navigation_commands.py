@@ -1,7 +1,5 @@
 """Where the aircraft is to fly, and where its home is."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass

@@ -1,7 +1,5 @@
 """The attitude of the aircraft, and its acceleration."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass

@@ -1,7 +1,5 @@
 """What a flight controller on the Raspberry Pi sends: servo positions or an attitude to hold."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
 from up.quick_init import quick_init

@@ -1,7 +1,5 @@
 """Keys of configuration files that a ground reads and sets."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from up.commands.command import BaseCommand, value

@@ -1,7 +1,5 @@
 """The pilot's stick inputs."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass

@@ -1,7 +1,5 @@
 """The system as a whole: its state, its load, its links, its end."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
 

@@ -1,7 +1,5 @@
 """Telemetry and its period."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from up.commands.command import BaseCommand, value

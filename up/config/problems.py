@@ -1,7 +1,5 @@
 """Problems of configuration files, with their codes and places, for people to fix."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Writes a commented configuration file from a schema and its values."""
 
-from __future__ import annotations
-
 import math
 import re
 import textwrap

@@ -1,7 +1,5 @@
 """The checks of a machine: what each examines, and what to do about a fault."""
 
-from __future__ import annotations
-
 import importlib.metadata
 import platform
 import re

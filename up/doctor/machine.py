@@ -1,7 +1,5 @@
 """What the doctor reads of a machine: files of the kernel, devices, and a few system calls."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import resource

@@ -1,7 +1,5 @@
 """The board that flies the aircraft, as every board shows itself (thesis 3.2.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """The abstract Flight Controller (thesis 3.2.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """The airframe profile that the board stores (docs/protocols.md 2.6), by keys of airframe.yml."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from struct import Struct

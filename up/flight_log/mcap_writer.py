@@ -1,7 +1,5 @@
 """Writes MCAP: whole records or chunks, one write each, so that a file may end anywhere."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """What the navigation estimator knows at one instant."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Measures whether a flight mode's step takes too long, on a computer that others use too."""
 
-from __future__ import annotations
-
 import gc
 import resource
 from time import perf_counter

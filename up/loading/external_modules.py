@@ -1,7 +1,5 @@
 """external_modules.yml: the modules of the registered cogs (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Literal
 

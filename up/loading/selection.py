@@ -1,7 +1,5 @@
 """Selects among the discovered classes: mode, ``load()``, disabled list, overrides."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Iterable, Sequence
 from pathlib import Path

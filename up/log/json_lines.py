@@ -1,7 +1,5 @@
 """Events as JSON lines in a file that rotates."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import json

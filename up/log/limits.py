@@ -1,7 +1,5 @@
 """Limits repeated log events."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Upload and download of a mission or a fence (docs/mission.md)."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial

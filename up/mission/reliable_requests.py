@@ -1,7 +1,5 @@
 """Commands that are repeated until the aircraft answers each of them."""
 
-from __future__ import annotations
-
 import secrets
 from collections.abc import Callable
 from typing import Any

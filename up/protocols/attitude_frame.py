@@ -4,8 +4,6 @@ Their data begin with the type of block that deflate reserves, so they are never
 data. A reader makes a whole frame of them, in which every other value has its true age.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any

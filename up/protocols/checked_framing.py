@@ -1,7 +1,5 @@
 """Checked framing of the serial line: COBS, sequence and CRC16 (docs/protocols.md 2.1)."""
 
-from __future__ import annotations
-
 from binascii import crc_hqx
 from collections.abc import Mapping
 from types import MappingProxyType

@@ -4,8 +4,6 @@ The proxy has two leases for each aircraft, its airborne connection and the grou
 aircraft's own listener has one.
 """
 
-from __future__ import annotations
-
 import hmac
 from enum import Enum
 from typing import Generic, Protocol, TypeVar

@@ -3,8 +3,6 @@
 Standard parts only: HMAC-SHA256 cut to 16 bytes, and HKDF-SHA256 (RFC 5869) for the keys.
 """
 
-from __future__ import annotations
-
 import hmac
 import struct
 

@@ -1,7 +1,5 @@
 """A TCP connection that carries General Messages."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 from typing import Protocol as Interface

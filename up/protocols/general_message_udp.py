@@ -1,7 +1,5 @@
 """General Messages over UDP: one object per datagram, one peer at a time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.error import MessageLengthError

@@ -4,8 +4,6 @@ A ground sends a hello with a fresh nonce; the aircraft answers with a nonce of 
 Both derive the keys of the session from the paired secret and both nonces.
 """
 
-from __future__ import annotations
-
 import struct
 from dataclasses import fields
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """The Orientation Forward Protocol: frames of six floats from a sensor (docs/protocols.md 3)."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from struct import Struct
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 The proxy, the aircraft's uplink and listener, and the ground use this codec. It keeps no state.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import fields

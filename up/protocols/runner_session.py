@@ -1,7 +1,5 @@
 """A protected request to a runner: JSON lines that carry the bodies of a session in hex."""
 
-from __future__ import annotations
-
 import json
 import secrets
 from collections.abc import Callable, Mapping

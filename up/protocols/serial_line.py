@@ -1,7 +1,5 @@
 """The serial line as a transport of the reactor; it reopens after a fault."""
 
-from __future__ import annotations
-
 import os
 from collections import deque
 from collections.abc import Callable, Hashable

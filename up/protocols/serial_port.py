@@ -1,7 +1,5 @@
 """Opens a serial port by termios: raw, 8N1, no flow control, exclusive."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os

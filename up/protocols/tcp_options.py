@@ -1,7 +1,5 @@
 """Socket options that detect a lost peer quickly."""
 
-from __future__ import annotations
-
 import contextlib
 import socket
 import struct

@@ -1,7 +1,5 @@
 """Thesis framing of the serial line: type and payload, bare (thesis figure 3.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame, FrameCounters

@@ -1,7 +1,5 @@
 """The connection with the ground station, over any transport (thesis 4.1.5, 4.2.3)."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 
 from up.base_started_module import BaseStartedModule

@@ -1,7 +1,5 @@
 """The inputs of the pilot's receiver."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

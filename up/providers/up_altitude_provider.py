@@ -1,7 +1,5 @@
 """The altitude of the aircraft."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

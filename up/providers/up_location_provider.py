@@ -1,7 +1,5 @@
 """The location of the aircraft, and the distance and bearing to home."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

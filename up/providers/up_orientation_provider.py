@@ -1,7 +1,5 @@
 """The orientation of the aircraft."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import isfinite
 from typing import Any

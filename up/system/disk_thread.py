@@ -1,7 +1,5 @@
 """Work with the disk beside the reactor: an SD card may take a second."""
 
-from __future__ import annotations
-
 import threading
 from _thread import start_new_thread
 from collections import deque

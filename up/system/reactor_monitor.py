@@ -1,7 +1,5 @@
 """Reports the module or handler that blocks the event loop for too long."""
 
-from __future__ import annotations
-
 import signal
 import sys
 import threading

@@ -1,7 +1,5 @@
 """The phone's General Messages, over TCP or UDP, from one phone at a time."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """All calls of the recorder to the operating system; each of them may block."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 from pathlib import Path

@@ -4,8 +4,6 @@ A Command with numeric fields is written through a template for the types of its
 a JSON encoder's time. Numbers have twelve significant digits.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Sequence
 from math import isfinite

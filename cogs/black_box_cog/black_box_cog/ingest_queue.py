@@ -1,7 +1,5 @@
 """The program's side of the recorder: it only appends to a queue, and reads the status."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections import deque

@@ -1,7 +1,5 @@
 """Creates the recorder on its own thread, and prepares its data in advance."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Callable, Iterator
 from typing import Any

@@ -1,7 +1,5 @@
 """Releases the interpreter regularly, so that control never waits long for the recorder."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable
 

@@ -1,7 +1,5 @@
 """The protocol of gpsd: JSON reports, one per line."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter

@@ -1,7 +1,5 @@
 """NMEA 0183: the sentences GGA, RMC, GSA and GST of one receiver make fixes."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterator

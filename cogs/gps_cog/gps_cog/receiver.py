@@ -1,7 +1,5 @@
 """One receiver: which of its fixes are published, and as how old."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """A receiver on a serial port, at whatever speed it was left."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Protocol
 

@@ -1,7 +1,5 @@
 """UBX, the protocol of u-blox receivers: NAV-PVT makes fixes, and the set-up asks for it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any

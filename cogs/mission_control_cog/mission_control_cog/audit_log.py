@@ -1,7 +1,5 @@
 """Who did what: the outcome of every Command from the ground, as lines of JSON."""
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Set

@@ -1,7 +1,5 @@
 """Which of several paths to the proxy carries the link."""
 
-from __future__ import annotations
-
 from math import inf
 
 from up.quick_dataclass import dataclass

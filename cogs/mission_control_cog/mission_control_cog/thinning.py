@@ -1,7 +1,5 @@
 """Telemetry as the uplink sends it: no digit and no change that a ground could not use."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Several network interfaces for the link to the proxy: health, failover, return."""
 
-from __future__ import annotations
-
 import errno
 import socket
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """The frames of MSP version 1: ``$M``, direction, size, type, payload, checksum."""
 
-from __future__ import annotations
-
 from functools import reduce
 from operator import xor
 

@@ -3,8 +3,6 @@
 Each reader raises ``struct.error`` or ``ValueError`` for a payload that is too short.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """osd.yml: the text on the pilot's goggles."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import fields

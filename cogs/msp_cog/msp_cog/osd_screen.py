@@ -1,7 +1,5 @@
 """The characters on the goggles: those that were sent, and those that differ."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 
 from msp_cog.displayport import MAX_TEXT, write

@@ -1,7 +1,5 @@
 """Telemetry as the texts of the OSD's elements."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 

@@ -1,7 +1,5 @@
 """Which requests are due, and how many answers are missing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from msp_cog import messages

@@ -1,7 +1,5 @@
 """The airborne phone (thesis 3.3.3, 4.2.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

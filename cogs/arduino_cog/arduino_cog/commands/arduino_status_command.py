@@ -1,7 +1,5 @@
 """The Arduino's status message, sent five times a second."""
 
-from __future__ import annotations
-
 from up.commands.board_schema import STATUS, SWITCH_POSITIONS, BoardStatus, Veto
 from up.commands.board_status import TOPIC, reset_causes_of, vetoes_of
 from up.commands.command import BaseCommand

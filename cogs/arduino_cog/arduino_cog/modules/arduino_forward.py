@@ -1,7 +1,5 @@
 """Forwards readings to an Arduino with the thesis's firmware; this project's does not use them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from serial_cog.config import ARDUINO

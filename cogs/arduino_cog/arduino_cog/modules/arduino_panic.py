@@ -1,7 +1,5 @@
 """Forwards Panic Mode to the Arduino (thesis 3.2.5)."""
 
-from __future__ import annotations
-
 from twisted.python.failure import Failure
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider

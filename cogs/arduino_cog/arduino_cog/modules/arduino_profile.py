@@ -1,7 +1,5 @@
 """The profile of the airframe on the Arduino, and its comparison with airframe.yml."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred

@@ -1,7 +1,5 @@
 """The Arduino as a module: its readings on the bus, its state in telemetry (thesis 4.2.4)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Passes Commands of the ground to the Arduino: arming, flight mode, calibration."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred

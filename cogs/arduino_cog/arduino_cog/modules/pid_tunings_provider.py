@@ -1,7 +1,5 @@
 """The gains that the Arduino uses, and their copy in pids.yml (thesis 3.3.2, 4.2.4)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred

@@ -1,7 +1,5 @@
 """What the ground and a companion computer add to the flight log."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The CRSF receiver at the Raspberry Pi."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Discovery of the Raspberry Pi by the airborne phone (thesis 3.3.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

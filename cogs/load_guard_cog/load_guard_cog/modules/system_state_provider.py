@@ -1,7 +1,5 @@
 """Publishes and keeps the state of the system (thesis 3.3.5)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

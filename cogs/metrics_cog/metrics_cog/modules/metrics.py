@@ -1,7 +1,5 @@
 """Telemetry and counters of the daemon for Prometheus."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The connection with the ground, through the proxy (thesis 4.2.3)."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping
 from functools import partial

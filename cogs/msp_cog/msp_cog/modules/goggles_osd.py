@@ -1,7 +1,5 @@
 """Telemetry as text on the pilot's goggles."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """A Betaflight board as a module: its readings on the bus, its state in telemetry."""
 
-from __future__ import annotations
-
 import struct
 from collections import Counter
 from collections.abc import Mapping

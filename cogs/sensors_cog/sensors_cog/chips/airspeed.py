@@ -1,7 +1,5 @@
 """Differential pressure: TE MS4525DO (001 psi, D, type A) and Sensirion SDP31, SDP32, SDP33."""
 
-from __future__ import annotations
-
 import math
 
 from sensors_cog.sensor import Aircraft, I2cSensor, WrongChipError

@@ -1,7 +1,5 @@
 """Reads the sensors at the I2C bus and publishes their measurements."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from importlib import import_module

@@ -1,7 +1,5 @@
 """The serial line as a module: frames in both directions (thesis 3.1.2, 3.2.2)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
