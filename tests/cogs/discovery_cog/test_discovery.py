@@ -102,7 +102,7 @@ def test_another_port_is_the_same_sender():
 
 def test_a_flood_of_senders_costs_bounded_memory():
     clock = Clock()
-    limit = RateLimit(clock, senders=256)
+    limit = RateLimit(clock)
     permitted = sum(limit.permits(f"10.0.{n // 250}.{n % 250}") for n in range(5000))
     assert (permitted, len(limit)) == (256, 256)
     clock.advance(1)
