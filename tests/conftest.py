@@ -64,7 +64,7 @@ def pytest_pyfunc_call(pyfuncitem):
 
     names = inspect.signature(pyfuncitem.obj).parameters
     given = {name: pyfuncitem.funcargs[name] for name in names}
-    run_in_reactor(lambda: pyfuncitem.obj(**given))
+    run_in_reactor(lambda: pyfuncitem.obj(**given), timeout_s=90)
     return True
 
 

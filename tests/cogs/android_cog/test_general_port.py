@@ -6,7 +6,7 @@ from twisted.logger import globalLogPublisher
 
 from tests.cogs.android_cog.flight import Flight
 from tests.cogs.peers import UdpPeer, connect
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from tests.support.tools import unavailable
 from up.commands.flight_state_command import ArmCommand
 from up.commands.location_command import LocationCommand
@@ -137,7 +137,7 @@ async def test_black_box_mode_has_no_datagrams(tmp_path):
 
 @pytest.mark.parametrize("name", ["general port", "orientation port"])
 @pytest.mark.parametrize("kind", [socket.SOCK_STREAM, socket.SOCK_DGRAM])
-def test_a_port_in_use_is_a_failed_start_that_names_port_and_key(tmp_path, name, kind):
+async def test_a_port_in_use_is_a_failed_start_that_names_port_and_key(tmp_path, name, kind):
     with socket.socket(socket.AF_INET, kind) as taken:
         taken.bind(("127.0.0.1", 0))
         if kind == socket.SOCK_STREAM:
@@ -145,17 +145,13 @@ def test_a_port_in_use_is_a_failed_start_that_names_port_and_key(tmp_path, name,
         number = taken.getsockname()[1]
         other = {"general port": "orientation port", "orientation port": "general port"}[name]
         text = f"{name}: {number}\n{other}: 0\naddress: 127.0.0.1\n"
-
-        async def flight():
-            f = Flight(tmp_path, ports=text)
-            with pytest.raises(BootStoppedError):
-                async with f:
-                    pass
-            (reason,) = f.up.vetoes.own.values()
-            assert f"port {number} " in reason
-            assert f"(android.yml: {name})" in reason
-
-        run_in_reactor(flight)
+        f = Flight(tmp_path, ports=text)
+        with pytest.raises(BootStoppedError):
+            async with f:
+                pass
+        (reason,) = f.up.vetoes.own.values()
+        assert f"port {number} " in reason
+        assert f"(android.yml: {name})" in reason
 
 
 async def test_a_public_address_is_no_address_to_listen_on(tmp_path):

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from twisted.internet.task import Clock
 
 from tests.cogs.peers import UdpPeer
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from tests.support.system import build_up
 from up.life_cycle import LifeCycle
 from up.mode import Mode
@@ -58,22 +58,18 @@ async def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, conte
     await life.stop()
 
 
-def test_a_port_in_use_is_a_veto_and_the_system_runs(tmp_path):
+async def test_a_port_in_use_is_a_veto_and_the_system_runs(tmp_path):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("", 0))
         number = taken.getsockname()[1]
-
-        async def boot():
-            up = system(tmp_path, number)
-            life = LifeCycle(up)
-            await life.start()
-            (reason,) = up.vetoes.own.values()
-            assert f"{number}" in reason
-            assert "(discovery.yml: port)" in reason
-            assert life.started
-            await life.stop()
-
-        run_in_reactor(boot)
+        up = system(tmp_path, number)
+        life = LifeCycle(up)
+        await life.start()
+        (reason,) = up.vetoes.own.values()
+        assert f"{number}" in reason
+        assert "(discovery.yml: port)" in reason
+        assert life.started
+        await life.stop()
 
 
 def test_black_box_mode_has_no_discovery(tmp_path):

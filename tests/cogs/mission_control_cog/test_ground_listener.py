@@ -13,7 +13,7 @@ from twisted.internet.testing import StringTransport
 
 from tests.cogs.mission_control_cog.system import Aircraft, listening
 from tests.cogs.peers import connect
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.flight_state_command import ArmCommand
 from up.commands.system_commands import LinkStateCommand
@@ -149,24 +149,20 @@ def test_hostile_stations_are_bounded(tmp_path):
             await peer.close()
 
 
-def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
+async def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         number = taken.getsockname()[1]
-
-        async def boot():
-            text = f"listener: {{port: {number}, address: 127.0.0.1}}\n"
-            a = Aircraft(tmp_path, None, text)
-            life = LifeCycle(a.up)
-            await life.start()
-            (reason,) = a.up.vetoes.own.values()
-            assert f"{number}" in reason
-            assert "(mission_control.yml: listener.port)" in reason
-            assert a.provider.started
-            await life.stop()
-
-        run_in_reactor(boot)
+        text = f"listener: {{port: {number}, address: 127.0.0.1}}\n"
+        a = Aircraft(tmp_path, None, text)
+        life = LifeCycle(a.up)
+        await life.start()
+        (reason,) = a.up.vetoes.own.values()
+        assert f"{number}" in reason
+        assert "(mission_control.yml: listener.port)" in reason
+        assert a.provider.started
+        await life.stop()
 
 
 async def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
