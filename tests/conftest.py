@@ -64,8 +64,9 @@ def pytest_pyfunc_call(pyfuncitem):
     # Not at import: some tests install a reactor of their own.
     from tests.support.reactor import run_in_reactor
 
-    given = [pyfuncitem.funcargs[name] for name in inspect.signature(pyfuncitem.obj).parameters]
-    run_in_reactor(pyfuncitem.obj, *given)
+    names = inspect.signature(pyfuncitem.obj).parameters
+    given = {name: pyfuncitem.funcargs[name] for name in names}
+    run_in_reactor(lambda: pyfuncitem.obj(**given), timeout_s=90)
     return True
 
 

@@ -1,7 +1,5 @@
 """A module that works in regular intervals on the reactor's thread."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from twisted.internet.task import LoopingCall

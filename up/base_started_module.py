@@ -23,9 +23,8 @@ class BaseStartedModule(BaseModule):
     """Whether this module can deliver readings; the program needs at least one that can."""
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
+        """Ignore the arguments, which the prototype's modules pass on."""
         self._started = False
-        self.silent = silent
-        self.given_config = config
 
     @property
     def started(self) -> bool:

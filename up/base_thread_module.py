@@ -1,12 +1,11 @@
 """A module with its own thread, for blocking work (thesis 3.2.2)."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Any
 
-from twisted.internet.defer import CancelledError, Deferred
+from twisted.internet.defer import CancelledError
+from twisted.internet.task import deferLater
 from twisted.python.failure import Failure
 
 from up.base_started_module import BaseStartedModule
@@ -53,7 +52,7 @@ class BaseThreadModule(BaseStartedModule):
         deadline_s = self.context.reactor.seconds() + STOP_LIMIT_S
         while self._is_thread_alive and self.context.reactor.seconds() < deadline_s:
             try:
-                await self._pause(_POLL_S)
+                await deferLater(self.context.reactor, _POLL_S)
             except CancelledError:
                 break
         if self._is_thread_alive:
@@ -66,7 +65,6 @@ class BaseThreadModule(BaseStartedModule):
         self.context.reactor.callFromThread(call, *arguments)
 
     def _loop(self) -> None:
-        """Do one piece of the work."""
         raise NotImplementedError(f"{self.class_name} must override _loop")
 
     def _run(self) -> None:
@@ -90,8 +88,3 @@ class BaseThreadModule(BaseStartedModule):
     @property
     def _is_thread_alive(self) -> bool:
         return self._thread is not None and self._thread.is_alive()
-
-    def _pause(self, seconds: float) -> Deferred[None]:
-        done: Deferred[None] = Deferred(lambda _: call.cancel())
-        call = self.context.reactor.callLater(seconds, done.callback, None)
-        return done

@@ -1,7 +1,5 @@
 """The modules included in Up; an application replaces one by extending it."""
 
-from __future__ import annotations
-
 from up.base_module import BaseModule
 from up.mode_monitor import ModeMonitor
 from up.providers.base_rx_provider import UpRXProvider

@@ -1,7 +1,5 @@
 """The cleanups of a module's registrations, so that they can be undone as a whole."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar

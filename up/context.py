@@ -1,7 +1,5 @@
 """The services that every module receives before any other call."""
 
-from __future__ import annotations
-
 from dataclasses import field
 from pathlib import Path
 from random import Random, SystemRandom

@@ -1,7 +1,5 @@
 """Gravity, distances and bearings on a spherical Earth: within 0.6 % of the ellipsoid."""
 
-from __future__ import annotations
-
 from math import asin, atan2, cos, degrees, radians, sin, sqrt
 
 MEAN_RADIUS_M = 6_371_008.8

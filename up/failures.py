@@ -1,7 +1,5 @@
 """What a module reports to the failsafes."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """A typed, bounded value, shared by configuration keys and the fields of Commands."""
 
-from __future__ import annotations
-
 import difflib
 import math
 import sys

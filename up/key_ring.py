@@ -1,7 +1,5 @@
 """The keys of the paired devices, read again when their file changes."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import time

@@ -1,7 +1,5 @@
 """Starts the modules, keeps them running, stops them in reverse (thesis 4.1.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Coroutine
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The operation modes (thesis 2.4.7)."""
 
-from __future__ import annotations
-
 from enum import Enum
 
 

@@ -1,7 +1,5 @@
 """The mode of the system, as telemetry shows it (thesis 2.4.7, 4.1.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -21,12 +19,6 @@ class ModeMonitor(BaseStartedModule):
     mode is constant.
     """
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.is_provisional = False
-        self._is_over = False
-        self._timer: Timer | None = None
-
     @property
     def shown(self) -> str:
         if self.context.mode is Mode.BLACK_BOX:
@@ -44,6 +36,9 @@ class ModeMonitor(BaseStartedModule):
         }
 
     def on_init(self) -> None:
+        self.is_provisional = False
+        self._is_over = False
+        self._timer: Timer | None = None
         if self.context.mode is Mode.AUTO:
             self.up.command_executor.register_command(LinkStateCommand, self._on_link)
 

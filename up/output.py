@@ -1,14 +1,12 @@
 """The output of command line programs: text for people, JSON lines for other programs."""
 
-from __future__ import annotations
-
 import json
 import os
 import sys
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, Protocol, TextIO
+from typing import Any, TextIO
 
 from up.errors import Problem, UserError
 from up.fields import printable
@@ -16,12 +14,6 @@ from up.fields import printable
 FORMAT_VARIABLE = "UP_LOG_FORMAT"
 """In the environment of a program: ``json`` for output and log that another program reads."""
 _FORMATS = ("text", "json")
-
-
-class Echo(Protocol):
-    """Shows a line of progress, with the code and fields that a program reads."""
-
-    def __call__(self, text: str, /, code: str = "", **fields: Any) -> None: ...
 
 
 def echo(text: str, /, code: str = "", **fields: Any) -> None:

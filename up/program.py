@@ -1,7 +1,5 @@
 """The program of an Up application: from the command line to the exit status."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

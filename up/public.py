@@ -1,7 +1,5 @@
 """The public names of Up, for ``from up import ...`` (docs/api.md)."""
 
-from __future__ import annotations
-
 from up.base_module import BaseModule as Module
 from up.base_started_module import BaseStartedModule as StartedModule
 from up.base_started_module import StartFailedError, StartResult

@@ -172,7 +172,6 @@ def _setstate(self: Any, state: list[Any]) -> None:
 
 
 def _compiled(cls: Any, *, frozen: bool) -> Any:
-    """Return the constructor of a class."""
     scope: dict[str, Any] = {"_set": object.__setattr__, "_unset": _UNSET}
     plain: list[str] = []
     keywords: list[str] = []

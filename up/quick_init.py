@@ -1,7 +1,5 @@
 """A faster constructor for frozen dataclasses that each frame of the board needs."""
 
-from __future__ import annotations
-
 from dataclasses import MISSING, fields
 from functools import update_wrapper
 from typing import Any, TypeVar

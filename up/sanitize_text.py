@@ -1,7 +1,5 @@
 """Texts from the air, made harmless for a terminal."""
 
-from __future__ import annotations
-
 import unicodedata
 
 _WIDE = ("W", "F")
@@ -14,7 +12,9 @@ def sanitize_text(text: object, limit: int = 200) -> str:
     writing and double-width letters are written as ``\\x1b`` or ``\\u202e``.
     """
     given = str(text) if not isinstance(text, str) else text
-    shown = "".join(c if _is_plain(c) else _escaped(c) for c in given[:limit])
+    shown = "".join(
+        c if _is_plain(c) else c.encode("unicode_escape").decode("ascii") for c in given[:limit]
+    )
     return shown if len(shown) <= limit else shown[: max(0, limit - 1)] + "~"
 
 
@@ -26,7 +26,3 @@ def _is_plain(character: str) -> bool:
         and unicodedata.category(character)[0] not in "MC"
         and unicodedata.east_asian_width(character) not in _WIDE
     )
-
-
-def _escaped(character: str) -> str:
-    return character.encode("unicode_escape").decode("ascii")

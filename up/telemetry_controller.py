@@ -1,18 +1,15 @@
 """Collects every module's telemetry, merges it and sends it (thesis 4.1.2, 4.1.5)."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
 from up.commands.beacon import fresh_s
-from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.commands.system_commands import LinkStateCommand
+from up.commands.system_commands import LinkStateCommand, PanicCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.log.limits import Limited, Once
 from up.system.clock import Timer, cancel
@@ -40,18 +37,7 @@ class TelemetryController(BaseStartedModule):
     consumer: a subscriber may have a ``wants_telemetry`` that is false while it has no peers.
     """
 
-    LOAD_ORDER: ClassVar[int] = sys.maxsize
-
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.wanted_period_ms = DEFAULT_PERIOD_MS
-        self.panic_delay_ms = 0
-        self.frames = 0
-        self.conflicts = 0
-        self.faults = 0
-        self._said = Once()
-        self._timer: Timer | None = None
-        self._sent_s = 0.0
+    LOAD_ORDER = sys.maxsize
 
     @property
     def period_ms(self) -> float:
@@ -67,7 +53,6 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def is_wanted(self) -> bool:
-        """Return whether a subscriber of telemetry wants it."""
         return any(
             getattr(getattr(handler, "__self__", None), "wants_telemetry", True)
             for handler in self.up.command_executor.handlers_of(TelemetryCommand)
@@ -77,6 +62,14 @@ class TelemetryController(BaseStartedModule):
         return merge(self._contents(), self._on_conflict)
 
     def on_init(self) -> None:
+        self.wanted_period_ms = DEFAULT_PERIOD_MS
+        self.panic_delay_ms = 0
+        self.frames = 0
+        self.conflicts = 0
+        self.faults = 0
+        self._said = Once()
+        self._timer: Timer | None = None
+        self._sent_s = 0.0
         self._limited = Limited(self.context.reactor, LOG_INTERVAL_S)
         executor = self.up.command_executor
         executor.register_command(TelemetryFrequencyCommand, self._on_period)

@@ -1,7 +1,5 @@
 """The newest frame of telemetry, for adapters that send it on in another format."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -39,12 +37,10 @@ class Frame:
         return found if isinstance(found, str) else None
 
     def texts(self, *path: str) -> list[str] | None:
-        """Return a list of texts; None: unknown."""
         found = value_at(self.content, path)
         return [str(each) for each in found] if isinstance(found, list | tuple) else None
 
     def is_null(self, *path: str) -> bool:
-        """Return whether the aircraft reports null."""
         above = value_at(self.content, path[:-1])
         return isinstance(above, Mapping) and above.get(path[-1], "") is None
 

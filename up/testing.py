@@ -1,7 +1,5 @@
 """Tools for testing modules: a small system whose time only the test advances."""
 
-from __future__ import annotations
-
 import math
 import queue
 import time

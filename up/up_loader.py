@@ -1,7 +1,5 @@
 """Turns an application into a running Up: discover, select, order, build (thesis 4.1.3)."""
 
-from __future__ import annotations
-
 from up.builtin_modules import BUILTIN_MODULES
 from up.config.application import DISABLED_MODULES
 from up.context import Context

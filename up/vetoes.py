@@ -1,7 +1,5 @@
 """The arming vetoes, by name."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from up.cleanup import add_cleanup
@@ -54,7 +52,6 @@ class Vetoes:
 
     @property
     def all(self) -> list[str]:
-        """Return every reason, for display."""
         own = [f"{name}: {reason}" for name, reason in self._own.items()]
         others = [f"{who}: {each}" for who, some in self._reported.items() for each in some]
         return own + others

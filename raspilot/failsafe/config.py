@@ -1,7 +1,5 @@
 """failsafe.yml: which failure in flight makes the aircraft do what."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import fields
 

@@ -3,8 +3,6 @@
 A new trigger is a key of ``config.py`` and a condition in ``raspilot/modules/failsafes.py``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 
 from raspilot.failsafe.config import WARN, Trigger

@@ -1,7 +1,5 @@
 """Whether the aircraft is about to cross the fence."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.failsafe.config import Fence

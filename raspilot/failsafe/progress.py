@@ -1,7 +1,5 @@
 """Whether the aircraft comes nearer to where it flies to."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.planning import distance_m, flyable_radius_m, left_along_m

@@ -1,9 +1,5 @@
 """The control loop on the Raspberry Pi: from an attitude to servo positions (thesis 3.3.2)."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
@@ -21,7 +17,7 @@ from up.flight_controller.gains_store import GainsStore, refuse_unused
 from up.flight_controller.pids_file import PidsFile
 from up.flight_modes.demand import AttitudeDemand, SurfacesDemand
 from up.flight_modes.selector import DemandError
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
@@ -41,7 +37,7 @@ class AttitudeController(BaseModule):
     Wire, as the board holds set-points. Loaded with ``flight controller: raspberry``.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    MODES = WITH_BOARD
 
     mission_control = wants(BaseMissionControlProvider)
 

@@ -1,7 +1,5 @@
 """What the board lets the Raspberry Pi do, and the request that it may fly."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.logger import Logger
@@ -38,12 +36,10 @@ class BoardAuthority:
 
     @property
     def is_auto(self) -> bool:
-        """Return whether the pilot's switch is at AUTO."""
         return self.state is not None and self.state.is_auto
 
     @property
     def is_failsafe(self) -> bool:
-        """Return whether the receiver is lost."""
         return self.state is not None and self.state.is_failsafe
 
     @property

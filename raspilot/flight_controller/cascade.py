@@ -1,7 +1,5 @@
 """Two PID controllers in series: angle to rotation rate to servo (thesis 3.3.2)."""
 
-from __future__ import annotations
-
 import math
 
 from up.commands.gains import Gains
@@ -94,7 +92,6 @@ class Cascade:
     def hold_angle(
         self, wanted_deg: float, angle_deg: float, rate_deg_s: float, dt_s: float
     ) -> float:
-        """Return the servo deflection, us."""
         wanted_deg_s = self.stabilize.step(wanted_deg, angle_deg, dt_s)
         return US_PER_UNIT * self._rate.step(wanted_deg_s, rate_deg_s, dt_s)
 

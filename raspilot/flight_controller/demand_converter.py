@@ -1,7 +1,5 @@
 """From the demand of a flight mode to what the board carries out."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from raspilot.flight_controller.attitude_controller import AttitudeController

@@ -1,7 +1,5 @@
 """Home, flight mode and target, which survive a restart of the program in flight."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

@@ -1,11 +1,9 @@
 """The one place that decides what the aircraft does at AUTO, and publishes it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
@@ -14,9 +12,8 @@ from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.board_authority import BoardAuthority
 from raspilot.flight_controller.demand_converter import DemandConverter
 from raspilot.flight_controller.flight_memory import MEMORY, Place
-from raspilot.flight_controller.flight_target import FlightTarget
+from raspilot.flight_controller.flight_target import FlightTarget, check_required
 from raspilot.flight_controller.home import HomeKeeper, target_of_place, telemetry_of
-from raspilot.flight_controller.required import check_required
 from raspilot.flight_modes.guided import GUIDED, Guided
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
@@ -35,7 +32,7 @@ from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
 from up.flight_modes.selector import FlightModeSelector
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import wants
 from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
@@ -62,19 +59,19 @@ class FlightModeManager(BaseFlightController):
     the newest demand, None for one without a path.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    LOAD_ORDER: ClassVar[int] = 100
+    MODES = WITH_BOARD
+    LOAD_ORDER = 100
     CONFIG = NAVIGATION
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
     WRITTEN_FILES = (MEMORY,)
-    SELECTS_MODES: ClassVar[bool] = True
+    SELECTS_MODES = True
 
     attitude_controller = wants(AttitudeController)
     location = wants(UpLocationProvider)
     estimator = wants(NavigationEstimator)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
+        super().on_init()
         self.published = 0
         self.choices = 0
         self.is_resumed = False
@@ -88,9 +85,6 @@ class FlightModeManager(BaseFlightController):
         self._resumed_place: Place | None = None
         self._requests: dict[str, float] = {}
         self._continuing = ""
-
-    def on_init(self) -> None:
-        super().on_init()
         self._ground_modes = ground_modes(self.up.get_modules(BaseBoard))
         self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
         for path, problem in self._selector.problems.items():
@@ -222,7 +216,6 @@ class FlightModeManager(BaseFlightController):
         if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
             return
         made = selector.step(situation, max(dt_s, MIN_STEP_S), self._carry_out)
-        self.flight_mode = selector.active
         if made is not None:
             self.published += 1
             self._executor.execute_command(made, self._origin)

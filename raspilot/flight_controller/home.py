@@ -1,7 +1,5 @@
 """Home: set once, never moved by accident (INAV#5893), kept over a restart."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path

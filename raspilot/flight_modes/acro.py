@@ -1,10 +1,5 @@
 """The sticks pass through, by the Raspberry Pi."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import ClassVar
-
 from up.flight_modes.demand import SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 
@@ -12,10 +7,10 @@ from up.flight_modes.flight_mode import FlightMode, FlightSituation
 class Acro(FlightMode):
     """The surfaces follow the sticks: what FBW falls back to when the board sends no rates."""
 
-    SELECTABLE: ClassVar[bool] = False
-    NAME: ClassVar[str] = "ACRO"
-    NEEDS: ClassVar[Mapping[str, float]] = {"rx": 0.25}
-    FALLBACK: ClassVar[str] = ""
+    SELECTABLE = False
+    NAME = "ACRO"
+    NEEDS = {"rx": 0.25}
+    FALLBACK = ""
 
     def load(self) -> bool:
         return self.context.application.flight_controller == "raspberry"

@@ -1,9 +1,5 @@
 """CIRCLE: a gentle turn that needs no position."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from up.config import ConfigFile, key
 from up.flight_modes.demand import AttitudeDemand, Bank, Demand, PathDemand
@@ -29,8 +25,8 @@ MAX_ALTITUDE_SD_M = 25.0
 class CircleMode(FlightMode):
     """Banks and holds the altitude at entry, by dead reckoning too; else it glides, motor off."""
 
-    NAME: ClassVar[str] = "CIRCLE"
-    FALLBACK: ClassVar[str] = "GLIDE"
+    NAME = "CIRCLE"
+    FALLBACK = "GLIDE"
     CONFIG = CIRCLE
 
     def enter(self, situation: FlightSituation) -> None:

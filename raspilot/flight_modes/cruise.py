@@ -1,10 +1,5 @@
 """CRUISE: holds course and altitude until sticks or ground change them."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import ClassVar
-
 from raspilot.flight_controller.sticks import deflection
 from up.flight_modes.demand import Bank, Course, Demand, Line, PathDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
@@ -22,10 +17,10 @@ class Cruise(FlightMode):
     and the altitude that it has then. Required course and altitude act when they change.
     """
 
-    NAME: ClassVar[str] = "CRUISE"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "FBW"
-    REQUESTS: ClassVar[frozenset[str]] = frozenset({"course", "altitude"})
+    NAME = "CRUISE"
+    NEEDS = {"navigation": 3.0, "orientation": 1.0}
+    FALLBACK = "FBW"
+    REQUESTS = frozenset({"course", "altitude"})
 
     def enter(self, situation: FlightSituation) -> None:
         state = situation.navigation

@@ -1,10 +1,5 @@
 """Fly By Wire on the Raspberry Pi (thesis 3.3.2)."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import ClassVar
-
 from raspilot.flight_controller import sticks
 from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.flight_modes.demand import AttitudeDemand
@@ -15,10 +10,10 @@ class FlyByWire(FlightMode):
     """The sticks demand bank and pitch, within the limits of airframe.yml; throttle and rudder are
     the pilot's. With ``flight controller: arduino`` the board's own FBW is flown instead."""
 
-    SELECTABLE: ClassVar[bool] = False
-    NAME: ClassVar[str] = "FBW"
-    NEEDS: ClassVar[Mapping[str, float]] = {"rx": 0.25, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "ACRO"
+    SELECTABLE = False
+    NAME = "FBW"
+    NEEDS = {"rx": 0.25, "orientation": 1.0}
+    FALLBACK = "ACRO"
 
     def load(self) -> bool:
         return self.context.application.flight_controller == "raspberry"

@@ -1,9 +1,5 @@
 """GLIDE: motor off, towards home."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from raspilot.navigation.planning import airspeed_for_wind_m_s, circle_around, course_to_deg
 from up.flight_modes.demand import AttitudeDemand, Bank, Circle, Demand, PathDemand
@@ -19,8 +15,8 @@ BANK_DEG = 10.0
 class Glide(FlightMode):
     """Flies to home at the flattest glide for the wind and circles there; else a gentle turn."""
 
-    NAME: ClassVar[str] = "GLIDE"
-    FALLBACK: ClassVar[str] = ""
+    NAME = "GLIDE"
+    FALLBACK = ""
 
     def enter(self, situation: FlightSituation) -> None:
         self._circle: Circle | None = None

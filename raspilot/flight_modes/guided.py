@@ -1,10 +1,5 @@
 """GUIDED: flies to the target that the ground requested, and circles there."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import ClassVar
-
 from raspilot.navigation.planning import circle_around, distance_m
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
@@ -59,10 +54,10 @@ def altitude_refusal(
 class Guided(FlightMode):
     """Flies to the target and circles there; a new target is followed if it is permitted."""
 
-    NAME: ClassVar[str] = "GUIDED"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "LOITER"
-    REQUESTS: ClassVar[frozenset[str]] = frozenset({"target"})
+    NAME = "GUIDED"
+    NEEDS = {"navigation": 3.0, "orientation": 1.0}
+    FALLBACK = "LOITER"
+    REQUESTS = frozenset({"target"})
     CONFIG = GUIDED
 
     def refusal(self, situation: FlightSituation) -> ModeRefusal | None:

@@ -1,11 +1,8 @@
 """LAND: descends in a circle, then glides to the ground against the wind."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from enum import Enum
-from typing import ClassVar
 
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.approach import MIN_GROUND_M_S, Approach, approach_airspeed_m_s
@@ -77,9 +74,9 @@ class Land(FlightMode):
     starts the motor on the ground.
     """
 
-    NAME: ClassVar[str] = "LAND"
-    FALLBACK: ClassVar[str] = "CIRCLE"
-    REQUESTS: ClassVar[frozenset[str]] = frozenset({"target"})
+    NAME = "LAND"
+    FALLBACK = "CIRCLE"
+    REQUESTS = frozenset({"target"})
     CONFIG = LAND
 
     _goal: Target | None = None

@@ -1,10 +1,5 @@
 """LOITER: circles where it was entered."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import ClassVar
-
 from raspilot.navigation.planning import circle_abeam, circle_around
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
@@ -31,10 +26,10 @@ class Loiter(FlightMode):
     After a restart of the program it circles where it did before.
     """
 
-    NAME: ClassVar[str] = "LOITER"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "CIRCLE"
-    REQUESTS: ClassVar[frozenset[str]] = frozenset({"altitude"})
+    NAME = "LOITER"
+    NEEDS = {"navigation": 3.0, "orientation": 1.0}
+    FALLBACK = "CIRCLE"
+    REQUESTS = frozenset({"altitude"})
     CONFIG = LOITER
 
     def enter(self, situation: FlightSituation) -> None:

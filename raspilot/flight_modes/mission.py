@@ -1,10 +1,7 @@
 """MISSION: flies the items of the mission in use, one after the other."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 from raspilot.flight_modes.loiter import LOITER as LOITER_FILE
 from raspilot.mission.borders import LocalBorders, crosses, local_borders
@@ -24,7 +21,7 @@ from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.flight_modes.selector import DemandError
 from up.mission.items import LAND, LOITER_TIME, LOITER_TURNS, RETURN, TAKEOFF, WAYPOINT, MissionItem
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import needs
 
 SAVE_S = 5.0
@@ -38,10 +35,10 @@ class Mission(FlightMode):
     one: their own rules for failures hold. TAKEOFF comes back to it.
     """
 
-    NAME: ClassVar[str] = "MISSION"
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "LOITER"
+    NAME = "MISSION"
+    MODES = WITH_BOARD
+    NEEDS = {"navigation": 3.0, "orientation": 1.0}
+    FALLBACK = "LOITER"
 
     plans = needs(Plans)
 

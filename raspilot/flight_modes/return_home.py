@@ -1,10 +1,5 @@
 """RETURN: climbs, flies home and circles there, or lands."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import ClassVar
-
 from raspilot.navigation.planning import (
     airspeed_for_wind_m_s,
     circle_around,
@@ -45,9 +40,9 @@ class Return(FlightMode):
     The airspeed is the one that needs the least energy in the wind, cruise or above.
     """
 
-    NAME: ClassVar[str] = "RETURN"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "CIRCLE"
+    NAME = "RETURN"
+    NEEDS = {"navigation": 3.0, "orientation": 1.0}
+    FALLBACK = "CIRCLE"
     CONFIG = RETURN
 
     def refusal(self, situation: FlightSituation) -> ModeRefusal | None:

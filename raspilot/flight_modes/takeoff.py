@@ -1,10 +1,6 @@
 """TAKEOFF: a hand launch."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
 from enum import Enum
-from typing import ClassVar
 
 from raspilot.flight_controller import sticks
 from raspilot.navigation.airframe_model import AirframeModel
@@ -59,9 +55,9 @@ class Takeoff(FlightMode):
     aircraft to the sticks. The target's altitude, if there is one, replaces that of ``height_m``.
     """
 
-    NAME: ClassVar[str] = "TAKEOFF"
-    NEEDS: ClassVar[Mapping[str, float]] = {"orientation": 1.0, "rx": 1.0}
-    FALLBACK: ClassVar[str] = ""
+    NAME = "TAKEOFF"
+    NEEDS = {"orientation": 1.0, "rx": 1.0}
+    FALLBACK = ""
     CONFIG = TAKEOFF
 
     _stage = _Stage.PILOT

@@ -1,7 +1,5 @@
 """The borders of a fence in metres: on which side of them a point is, and how far they are."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from itertools import pairwise

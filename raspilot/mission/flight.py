@@ -1,7 +1,5 @@
 """How one item of a mission is flown, and when it is done."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 from raspilot.mission.legs import lead_m, turn_between_deg

@@ -1,7 +1,5 @@
 """The legs of a mission: straight lines between items, and the turns from one to the next."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import field
@@ -98,7 +96,6 @@ class Course:
         return Point(0.0, 0.0) if is_home else None
 
     def radius_m(self, number: int) -> float:
-        """Return the radius that is flown around an item."""
         return max(self._least_m, self.items[number - 1].radius_m or self._loiter_radius_m)
 
     def legs(self) -> Iterator[Leg]:

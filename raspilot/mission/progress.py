@@ -62,7 +62,6 @@ class MissionProgress:
         return MissionProgress(self.plan_id, number, jumps=jumps)
 
     def next(self, items: Sequence[MissionItem]) -> MissionProgress:
-        """Return the progress after its item."""
         start = self.item if items[self.item - 1].kind == WAYPOINT else 0
         return replace(self.at(items, self.item + 1), start=start)
 

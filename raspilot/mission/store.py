@@ -1,7 +1,5 @@
 """A plan in use, the parts of its successor, and its file."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,9 +1,7 @@
 """Flies home, or what failsafe.yml says, when something fails in flight."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import maybeDeferred
 from twisted.python.failure import Failure
@@ -21,7 +19,7 @@ from up.fields import suggestion
 from up.flight_modes.flight_mode import FlightMode
 from up.flight_modes.navigation_file import NAVIGATION
 from up.log.limits import Once
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
@@ -33,25 +31,22 @@ class Failsafes(BasePeriodicModule):
     mode, selected like one by the ground.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    LOAD_ORDER: ClassVar[int] = 200
-    PERIOD_S: ClassVar[float] = 0.2
+    MODES = WITH_BOARD
+    LOAD_ORDER = 200
+    PERIOD_S = 0.2
     CONFIG = FAILSAFE
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
 
     flight = needs(FlightModeManager)
     plans = wants(Plans)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
         self._acting: str | None = None
         self._is_entering = False
         self._choices = 0
         self._was_linked = False
         self._logged: list[str] = []
         self._said = Once()
-
-    def on_init(self) -> None:
         self._engine = FailsafeEngine(self.config.triggers)
         fence = self.config.fence
         self._fence = FenceWatch(fence)

@@ -1,7 +1,5 @@
 """The voltage of the flight battery, and the limits of flight_battery.yml."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

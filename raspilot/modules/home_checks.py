@@ -1,8 +1,6 @@
 """Forbids arming while home is missing, or is outside the fence."""
 
-from __future__ import annotations
-
-from typing import Any, ClassVar
+from typing import Any
 
 from raspilot.failsafe.config import FAILSAFE
 from raspilot.flight_controller.flight_memory import Place
@@ -16,7 +14,7 @@ from up.commands.system_commands import LinkStateCommand
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import Border
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.up_location_provider import UpLocationProvider
 
@@ -31,20 +29,17 @@ class HomeChecks(BasePeriodicModule):
     home. Home must be inside the fence, and by the radius of RETURN's circle if a failsafe uses it.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    LOAD_ORDER: ClassVar[int] = 210
-    PERIOD_S: ClassVar[float] = 0.5
+    MODES = WITH_BOARD
+    LOAD_ORDER = 210
+    PERIOD_S = 0.5
 
     flight = needs(FlightModeManager)
     location = wants(UpLocationProvider)
     plans = wants(Plans)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
         self._has_phone = False
         self._checked: tuple[Place | None, tuple[Border, ...]] | None = None
-
-    def on_init(self) -> None:
         failsafes = self.context.config(FAILSAFE).triggers.values()
         self._returns = any(each.action == Return.NAME for each in failsafes)
         self._navigation = self.context.config(NAVIGATION)

@@ -1,21 +1,16 @@
 """The reading ``navigation``: where the aircraft is, how it moves, and how sure that is."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.battery_sag import BatterySag
 from raspilot.navigation.estimator import Estimator
-from raspilot.navigation.fix_gate import Fix
-from raspilot.navigation.fix_sources import FixSources
-from up.commands.airspeed_command import AirspeedCommand
-from up.commands.command import BaseCommand
-from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
+from raspilot.navigation.fix_gate import Fix, FixSources
+from up.commands.altitude_command import AirspeedCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand, ServoCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
-from up.commands.servo_command import ServoCommand
 from up.commands.telemetry_schema import READINGS
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
@@ -49,7 +44,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     """
 
     READING = "navigation"
-    COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
+    COMMAND = OrientationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     orientation = needs(UpOrientationProvider)
@@ -57,9 +52,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     altitude = needs(UpAltitudeProvider)
     heading = needs(UpHeadingProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.estimator = Estimator()
+    def on_init(self) -> None:
         self.home_altitude_m: float | None = None
         self._state: NavigationState | None = None
         self._is_old = True
@@ -68,8 +61,6 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._sources = FixSources()
         self._doubted = 0
         self._said = Once(MAX_SAID)
-
-    def on_init(self) -> None:
         model = AirframeModel(self.context.config(NAVIGATION))
         self.estimator = Estimator(model)
         self._sag = BatterySag(model.level_throttle)

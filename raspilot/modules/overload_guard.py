@@ -1,11 +1,9 @@
 """Notices an event loop that is blocked again and again, and stops optional modules."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from twisted.internet.defer import Deferred
 
@@ -39,13 +37,10 @@ class OverloadGuard(BasePeriodicModule, FailureSource):
 
     processor_s: Callable[[], float] = staticmethod(time.thread_time)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
         self._samples: deque[_Sample] = deque()
         self._is_overloaded = False
         self._next_s = float("-inf")
-
-    def on_init(self) -> None:
         self._seconds = self.context.reactor.seconds
 
     @property

@@ -1,10 +1,8 @@
 """The keys of flight modes, failsafes and navigation, read and set by a ground."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
@@ -26,7 +24,7 @@ from up.config.problems import Problems
 from up.config.scalars import read_scalar
 from up.config.schema import plain_value
 from up.fields import ConstraintError, suggestion
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.disk_thread import DiskThread
@@ -46,8 +44,8 @@ class Parameters(BaseModule):
     not act yet nothing arms.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    LOAD_ORDER: ClassVar[int] = 300
+    MODES = WITH_BOARD
+    LOAD_ORDER = 300
 
     mission_control = wants(BaseMissionControlProvider)
 

@@ -1,9 +1,5 @@
 """Tells the runner whether the phone of this instance is connected, and whether it is armed."""
 
-from __future__ import annotations
-
-from typing import Any
-
 from up.base_started_module import BaseStartedModule
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.system_commands import LinkStateCommand
@@ -20,17 +16,14 @@ class PhoneWatch(BaseStartedModule):
     Without a board, as in Black Box Mode, nothing can be armed (docs/runner.md).
     """
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.notifier = Notifier.from_environment()
-        self._is_connected = False
-        self._is_armed = False
-        self._timer: Timer | None = None
-
     def load(self) -> bool:
         return bool(self.context.instance)
 
     def on_init(self) -> None:
+        self.notifier = Notifier.from_environment()
+        self._is_connected = False
+        self._is_armed = False
+        self._timer: Timer | None = None
         self.up.command_executor.register_command(LinkStateCommand, self._on_link)
         self.up.command_executor.register_command(FlightStateCommand, self._on_flight_state)
 

@@ -1,9 +1,7 @@
 """The mission and the fence in use: upload, read back, progress, telemetry (docs/mission.md)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.defer import Deferred, DeferredLock
 from twisted.python.failure import Failure
@@ -12,8 +10,7 @@ from raspilot.failsafe.config import FAILSAFE
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.loiter import LOITER
 from raspilot.flight_modes.return_home import RETURN
-from raspilot.mission.check import Circumstances, check_fence, check_mission
-from raspilot.mission.config import MISSION_FILE
+from raspilot.mission.check import MISSION_FILE, Circumstances, check_fence, check_mission
 from raspilot.mission.progress import NOT_FLOWN, MissionProgress
 from raspilot.mission.store import PlanStore, Problem
 from raspilot.navigation.planning import distance_m
@@ -36,7 +33,7 @@ from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import Point
 from up.mission.items import RETURN as RETURN_ITEM
 from up.mission.items import PlanItem, plan_id
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.disk_thread import DiskThread
@@ -57,9 +54,9 @@ class Plans(BasePeriodicModule):
     ``problems`` are the result, None before the first one.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    MODES = WITH_BOARD
     CONFIG = MISSION_FILE
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
 
     flight = needs(FlightModeManager)
     mission_control = wants(BaseMissionControlProvider)

@@ -1,7 +1,5 @@
 """The path through the air as running integrals, with their recent past."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from bisect import bisect_right

@@ -1,7 +1,5 @@
 """What the airframe needs for an airspeed: sink, angle of attack, throttle, load."""
 
-from __future__ import annotations
-
 import math
 
 from up.earth import GRAVITY_M_S2
@@ -51,7 +49,6 @@ class AirframeModel:
         return (self._zero_lift_deg + self._lift_deg * (lift if lift < 1.0 else 1.0)) / load
 
     def glide_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
-        """Return the pitch of a glide at this airspeed without motor."""
         slope = self.sink_m_s(airspeed_m_s, load) / airspeed_m_s
         return self.level_pitch_deg(airspeed_m_s, load) - math.degrees(math.atan(slope))
 
@@ -75,7 +72,6 @@ class AirframeModel:
         return power_m_s if power_m_s > 0.0 else 0.0
 
     def least_climb_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
-        """Return the pitch of ``LEAST_CLIMB_M_S``."""
         slope_deg = math.degrees(LEAST_CLIMB_M_S / airspeed_m_s)
         return self.level_pitch_deg(airspeed_m_s, load) + slope_deg
 
@@ -108,7 +104,6 @@ class AirframeModel:
         return math.degrees(math.acos(cosine)) if cosine < 1.0 else 0.0
 
     def _lift(self, airspeed_m_s: float, load: float) -> float:
-        """Return the part of the greatest lift that carries this load."""
         return load * self._stall_squared / (airspeed_m_s * airspeed_m_s)
 
 

@@ -1,7 +1,5 @@
 """The airspeed and the climb that pitch, bank and throttle cause; no sensor of the air needed."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of
@@ -26,12 +24,10 @@ class AirspeedModel:
         self.restart(model.speeds.cruise_m_s, motor_stopped=False)
 
     def restart(self, airspeed_m_s: float, *, motor_stopped: bool) -> None:
-        """Continue from an airspeed, with or without thrust."""
         self.airspeed_m_s = self._limited(airspeed_m_s)
         self.motor_stopped = motor_stopped
 
     def step(self, dt_s: float, roll_deg: float, pitch_deg: float, throttle: float) -> None:
-        """Advance by ``dt_s``."""
         speed, load = self.airspeed_m_s, load_of(roll_deg)
         self._flown = load, pitch_deg
         self.climb_m_s, self.coast_m_s2 = self._motion(speed, load, pitch_deg)

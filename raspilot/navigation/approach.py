@@ -80,7 +80,6 @@ class Approach:
         return min(self.height_m, height)
 
     def sink_m_s(self, to_go_m: float, ground_m_s: float) -> float:
-        """Return the sink that follows the plan."""
         if to_go_m < self.glide_m:
             return self.slope * ground_m_s
         return POWERED_SHARE * self.slope * ground_m_s if to_go_m < self.length_m - LEAD_M else 0.0

@@ -1,7 +1,5 @@
 """How much less a weak battery gives: the speed controller chops its voltage."""
 
-from __future__ import annotations
-
 LOADED = 0.8
 """Part of the level flight's throttle from which on the battery is under load."""
 REFERENCE_RISE_V = 0.02

@@ -1,7 +1,5 @@
 """The navigation estimator: position, velocity, wind and airspeed from attitude and late fixes."""
 
-from __future__ import annotations
-
 import cmath
 import math
 
@@ -15,11 +13,11 @@ from raspilot.navigation.horizontal_filter import (
     POSITION_R_M,
     VELOCITY_R_M_S,
     HorizontalFilter,
+    WindMean,
     unseen_variance,
 )
 from raspilot.navigation.motor_watch import MotorWatch
 from raspilot.navigation.vertical_filter import VerticalFilter
-from raspilot.navigation.wind_mean import WindMean
 from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 
 MAX_TIME_S = 1e9
@@ -230,14 +228,12 @@ class Estimator:
         off_m = math.hypot(point.north_m - expected.north_m, point.east_m - expected.east_m)
         return is_far(off_m, math.sqrt(self._horizontal.position_variance(fixed, at)))
 
-    def state(self, now_s: float | None = None) -> NavigationState | None:
-        """Return the estimate at the newest orientation, or ``now_s``; None before a fix."""
+    def state(self) -> NavigationState | None:
+        """Return the estimate at the newest orientation; None before a fix."""
         frame, filter_, then = self._frame, self._horizontal, self._fixed
         now = self._path.newest
         if frame is None or filter_ is None or then is None or now is None:
             return None
-        if now_s is not None and now_s > now.time_s:
-            now = self._path.at(now_s) or now
         altitude_m, climb, altitude_sd = self.vertical.state_at(now.time_s, now.climb_m)
         x, model = filter_.x, self._model
         along, across = filter_.variances()
@@ -356,7 +352,6 @@ class Estimator:
     def _correct(
         self, fix: Fix, point: Point, at: AirPoint, velocity: tuple[float, float] | None
     ) -> None:
-        """Take a fix in flight."""
         horizontal, then = self._horizontal, self._fixed
         assert horizontal is not None and then is not None
         dt = at.time_s - then.time_s

@@ -1,7 +1,5 @@
 """Whether the aircraft flies or rests on the ground."""
 
-from __future__ import annotations
-
 import math
 
 TAKE_OFF_M_S, TAKE_OFF_FIXES = 5.0, 2

@@ -1,6 +1,4 @@
-"""The Kalman filter of position, heading offset, airspeed factor and wind."""
-
-from __future__ import annotations
+"""The Kalman filter of position, heading offset, airspeed factor and wind, and the mean wind."""
 
 import math
 
@@ -51,7 +49,6 @@ class HorizontalFilter:
 
     @property
     def is_oriented(self) -> bool:
-        """Return whether the offset of the yaw is known at all."""
         return abs(complex(self.x[2], self.x[3])) > MIN_FACTOR
 
     def set_offset(self, offset_rad: float, sd_rad: float) -> None:
@@ -185,7 +182,6 @@ class HorizontalFilter:
         return limited(total, 0.0, _MAX_VARIANCE)
 
     def blur(self, sd_m: float) -> None:
-        """Add an uncertainty of the position."""
         for index in (0, 1):
             self.p[index][index] = min(self.p[index][index] + sd_m * sd_m, MAX_SD_M**2)
 
@@ -228,3 +224,21 @@ def unseen_variance(unseen_s: float) -> float:
 def _diagonal(*deviations: float) -> list[list[float]]:
     size = len(deviations)
     return [[deviations[i] ** 2 if i == k else 0.0 for k in range(size)] for i in range(size)]
+
+
+PERIOD_S = 40.0
+
+
+class WindMean:
+    """A mean that forgets within ``PERIOD_S``; each estimate counts by its inverse variance."""
+
+    def __init__(self) -> None:
+        self.north_m_s = self.east_m_s = 0.0
+        self._weight = 0.0
+
+    def add(self, north_m_s: float, east_m_s: float, variance: float, dt_s: float) -> None:
+        weight = dt_s / max(variance, 0.01)
+        self._weight = self._weight * math.exp(-dt_s / PERIOD_S) + weight
+        share = weight / self._weight if self._weight > 0.0 else 1.0
+        self.north_m_s += share * (north_m_s - self.north_m_s)
+        self.east_m_s += share * (east_m_s - self.east_m_s)

@@ -1,7 +1,5 @@
 """Lateral guidance: the bank that brings the aircraft onto its path, in wind."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel

@@ -1,7 +1,5 @@
 """Whether the motor gives the thrust that the throttle demands."""
 
-from __future__ import annotations
-
 import math
 from copy import copy
 
@@ -68,7 +66,6 @@ class MotorWatch:
         self._settled_s = float("-inf")
 
     def is_watching(self, time_s: float) -> bool:
-        """Return whether a stop would be noticed at this time."""
         return self._settled_s <= time_s <= self._time_s + SILENT_S
 
     def acceleration(self, forward_m_s2: float, begin: AirPoint, end: AirPoint) -> float | None:

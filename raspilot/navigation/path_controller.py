@@ -1,7 +1,5 @@
 """From a path, an altitude and an airspeed to an attitude and a throttle."""
 
-from __future__ import annotations
-
 from raspilot.navigation.airframe_model import AirframeModel, load_of
 from raspilot.navigation.lateral import LateralGuidance
 from raspilot.navigation.limits import limited
@@ -32,11 +30,11 @@ class PathController:
         self._vertical = EnergyControl(config.vertical, model)
         self.reset()
 
-    def reset(self, throttle: float | None = None) -> None:
-        """Begin again at the next step, from this throttle (0 to 1; None: from any)."""
+    def reset(self) -> None:
+        """Begin again at the next step."""
         self._roll_deg: float | None = None
         self._pitch_deg = 0.0
-        self._throttle = throttle
+        self._throttle: float | None = None
 
     def step(
         self,

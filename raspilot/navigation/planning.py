@@ -1,7 +1,5 @@
 """Circles and banks that can be flown, and airspeeds for the wind."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel

@@ -1,7 +1,5 @@
 """Vertical control: throttle holds the total energy, pitch divides it (Lambregts)."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.airframe_model import AirframeModel, load_of
@@ -123,7 +121,6 @@ class EnergyControl:
         return max(down, min(up, pitch)), throttle
 
     def least_airspeed_m_s(self, load: float) -> float:
-        """Return the least airspeed in a turn of this load factor."""
         return self._model.speeds.minimum_m_s * math.sqrt(load if load > 1.0 else 1.0)
 
     def _stored(self, airspeed: float, wanted: float) -> float:

@@ -1,7 +1,5 @@
 """The Kalman filter of altitude, climb error, and the offsets of barometer and receiver."""
 
-from __future__ import annotations
-
 import math
 
 from raspilot.navigation.limits import limited

@@ -2,8 +2,6 @@
 
 # ruff: noqa: N802 - Twisted's names
 
-from __future__ import annotations
-
 import json
 
 from twisted.internet.defer import Deferred

@@ -65,7 +65,7 @@ def application(folder, **files):
     for name, text in files.items():
         (folder / "config" / f"{name}.yml").write_text(text, encoding="utf-8")
     for registrant in (Android, Discovery, MissionControl):
-        registrant(lambda *text, **fields: None).register(Application.at(folder))
+        registrant().register(Application.at(folder))
     return folder
 
 

@@ -1,5 +1,3 @@
-"""The rig of the flight controller's tests."""
-
 import pytest
 
 from tests.raspilot.flight_controller_rig import Rig

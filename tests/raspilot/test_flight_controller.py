@@ -150,7 +150,7 @@ def test_without_rates_the_sticks_pass_through(rig):
     rig.sticks(ailerons=1234, elevator=1777, rudder=900)
     output = rig.frame(30.0, 10.0, rates=(None, None, None))
     assert output == OutputCommand(1234, 1777, 0, 1000, 1)
-    assert rig.manager.flight_mode == "ACRO"
+    assert rig.manager.acting_mode == "ACRO"
 
 
 class TestThePast:

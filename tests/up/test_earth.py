@@ -1,5 +1,3 @@
-"""Distances and bearings."""
-
 import math
 
 import pytest

@@ -1,5 +1,3 @@
-"""A failed module is removed from the system, in whichever phase it failed."""
-
 import pytest
 from twisted.internet.defer import CancelledError, Deferred
 

@@ -1,5 +1,3 @@
-"""Modules that start, fail, hang or raise, and the effects on the rest."""
-
 import pytest
 from twisted.internet.defer import CancelledError, Deferred
 from twisted.internet.task import Clock

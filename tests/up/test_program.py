@@ -143,19 +143,17 @@ def test_a_boot_that_cannot_go_on_ends_with_one_sentence(trouble, code):
         assert "before stops" in daemon.text
 
 
-def test_a_start_that_hangs_can_be_stopped():
-    with Daemon("start hangs") as daemon:
-        daemon.expect("troubled starts")
-        status, took_s = daemon.end()
-        assert status == 0
-        assert took_s < 2
-        assert "before stops" in daemon.text
-
-
-def test_a_signal_that_another_thread_hears_wakes_the_reactor():
-    with Daemon("another thread hears the signal") as daemon:
-        daemon.expect("a thread hears SIGTERM")
-        status, took_s = daemon.end(None)
+@pytest.mark.parametrize(
+    ("trouble", "words", "number"),
+    [
+        ("start hangs", "troubled starts", signal.SIGTERM),
+        ("another thread hears the signal", "a thread hears SIGTERM", None),
+    ],
+)
+def test_a_signal_ends_it_while_a_start_hangs_or_in_another_thread(trouble, words, number):
+    with Daemon(trouble) as daemon:
+        daemon.expect(words)
+        status, took_s = daemon.end(number)
         assert status == 0
         assert took_s < 2
         assert "before stops" in daemon.text

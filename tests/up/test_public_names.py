@@ -1,5 +1,3 @@
-"""The public names of the package."""
-
 import re
 import subprocess
 import sys

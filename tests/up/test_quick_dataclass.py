@@ -1,5 +1,3 @@
-"""A quick dataclass is what that of the standard library is."""
-
 import copy
 import dataclasses
 import inspect

@@ -1,5 +1,3 @@
-"""Frozen dataclasses with the faster constructor are what they are with the usual one."""
-
 import copy
 import inspect
 import pickle

@@ -1,5 +1,3 @@
-"""Texts from the air on a terminal."""
-
 import unicodedata
 
 import pytest

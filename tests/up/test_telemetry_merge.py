@@ -1,5 +1,3 @@
-"""Contents of any modules become one object that JSON can hold."""
-
 import json
 import math
 

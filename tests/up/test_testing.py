@@ -1,5 +1,3 @@
-"""The bench that module authors test with."""
-
 import queue
 import threading
 

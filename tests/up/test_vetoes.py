@@ -1,5 +1,3 @@
-"""What forbids arming."""
-
 from up.vetoes import Vetoes
 
 

@@ -138,7 +138,6 @@ class Prefix:
         return found
 
     def _link(self, name: str, version: str) -> None:
-        """Replace a link in one step."""
         new = self.folder / f".{name}.new"
         new.unlink(missing_ok=True)
         new.symlink_to(Path("versions", version))
@@ -162,7 +161,6 @@ def _is_launcher(path: Path) -> bool:
 
 
 def _running_in(folder: Path) -> int | None:
-    """Return a process whose program is in a folder."""
     for each in Path("/proc").glob("[0-9]*/cmdline"):
         try:
             words = each.read_bytes().split(b"\0")[:2]

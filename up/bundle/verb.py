@@ -1,7 +1,5 @@
 """``up bundle``: everything that an installation without a network needs, in one folder."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import platform

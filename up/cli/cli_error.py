@@ -1,7 +1,5 @@
 """Errors of ``up`` that the user can fix."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from up.errors import UserError

@@ -1,7 +1,5 @@
 """``up create``: writes a working application, module, flight mode, handler or cog."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Mapping

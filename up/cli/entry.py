@@ -3,8 +3,6 @@
 It must import nothing slow.
 """
 
-from __future__ import annotations
-
 import signal
 from importlib import import_module
 from typing import Any

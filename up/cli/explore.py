@@ -1,7 +1,5 @@
 """``up explore``: lists the module classes in a folder (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """``up keys``: the devices that may send protected Commands."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

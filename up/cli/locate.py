@@ -1,7 +1,5 @@
 """Finds the application of a verb."""
 
-from __future__ import annotations
-
 import argparse
 from contextlib import suppress
 from pathlib import Path

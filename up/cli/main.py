@@ -1,7 +1,5 @@
 """The command line ``up``: its verbs and its error handling."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 

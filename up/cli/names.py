@@ -52,7 +52,6 @@ class Name:
 
     @property
     def camel(self) -> str:
-        """Return the name for classes: FuelGauge."""
         return "".join(word.capitalize() for word in self.words)
 
     @property

@@ -111,7 +111,6 @@ class OptionParser(argparse.ArgumentParser):
             )
 
     def completion(self) -> Verb:
-        """Return everything that the program accepts."""
         return verb_of(self)
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:

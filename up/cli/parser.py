@@ -1,7 +1,5 @@
 """The verbs of ``up`` with their options and help."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from pathlib import Path

@@ -32,7 +32,6 @@ class _Plugin:
 
     @property
     def distributions(self) -> str:
-        """Return the names of the distributions, for messages."""
         return " and ".join(_distribution(entry) for entry in self.entries)
 
 

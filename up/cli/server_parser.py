@@ -1,7 +1,5 @@
 """The command line of a server program: up-proxy, up-runner."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import fields, replace

@@ -1,7 +1,5 @@
 """``up update``: upgrades Up from its installation source."""
 
-from __future__ import annotations
-
 import argparse
 import importlib.metadata
 import json
@@ -24,7 +22,7 @@ def run(values: argparse.Namespace) -> int:
         return 0
     pip.check_environment()
     echo(f"Up {VERSION} in {sys.prefix}: {shlex.join(command[2:])}")
-    pip.run_pip([*command, "--no-input", "--disable-pip-version-check"], echo)
+    pip.run_pip([*command, "--no-input", "--disable-pip-version-check"])
     echo("done; 'up --version' tells the version")
     return 0
 

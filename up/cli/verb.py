@@ -1,7 +1,5 @@
 """A command line verb whose module is imported on use."""
 
-from __future__ import annotations
-
 import argparse
 import importlib
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A cog's name and its errors."""
 
-from __future__ import annotations
-
 from up.errors import UserError
 
 

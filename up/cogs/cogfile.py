@@ -1,7 +1,5 @@
 """Cogfile.yml: the cogs that an application uses, and their sources (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

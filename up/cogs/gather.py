@@ -1,7 +1,5 @@
 """``up gather``: installs and registers the cogs of the Cogfile (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -14,10 +12,10 @@ from up.cogs.registration import register, unregister
 from up.cogs.registry import Registry
 from up.errors import UserError
 from up.loading.application import Application
-from up.output import Echo, echo
+from up.output import echo
 
 
-def gather(application: Application, *, may_install: bool = True, echo: Echo = echo) -> None:
+def gather(application: Application, *, may_install: bool = True) -> None:
     """Install missing cogs, register all, unregister those that left the Cogfile.
 
     Raises UserError with one sentence per problem, ConfigErrors for errors in the Cogfile or the
@@ -32,26 +30,26 @@ def gather(application: Application, *, may_install: bool = True, echo: Echo = e
     ]
     for cog in sorted(left):
         echo(f"{cog}: has left {COGFILE}", "cog_removed", cog=cog)
-        unregister(cog, application, echo)
+        unregister(cog, application)
     missing = [each for each in wanted if not is_installed(each)]
     if missing and may_install:
-        _install(missing, wanted, echo)
+        _install(missing, wanted)
         _register_anew(application)
         return
     if missing:
         names = [each.cog for each in missing]
         text = f"not installed, but listed in {COGFILE}: {', '.join(names)}"
         raise CogError(text, "not_installed", cogs=names)
-    _register_all(wanted, application, echo)
+    _register_all(wanted, application)
 
 
-def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog], echo: Echo) -> None:
+def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog]) -> None:
     for each in missing:
         origin = _origin(each)
         echo(
             f"{each.cog}: to be installed from {origin}", "installing", cog=each.cog, origin=origin
         )
-    pip.install(missing, [each for each in wanted if each.folder is not None], echo)
+    pip.install(missing, [each for each in wanted if each.folder is not None])
     count = len(missing)
     echo(f"installed {count} {'cog' if count == 1 else 'cogs'}", "installed", count=count)
 
@@ -67,11 +65,11 @@ def _register_anew(application: Application) -> None:
         )
 
 
-def _register_all(wanted: Sequence[WantedCog], application: Application, echo: Echo) -> None:
+def _register_all(wanted: Sequence[WantedCog], application: Application) -> None:
     failed: list[UserError] = []
     for each in wanted:
         try:
-            register(each.cog, application, "cogfile", echo)
+            register(each.cog, application, "cogfile")
         except UserError as error:
             failed.append(error)
     if failed:

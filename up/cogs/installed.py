@@ -1,7 +1,5 @@
 """Whether a cog is installed, and from the source that the Cogfile names."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import json
@@ -26,7 +24,7 @@ def is_installed(wanted: WantedCog) -> bool:
         return False
     if wanted.spec.url:
         return _is_from_git(found, wanted.spec.url, wanted.spec.revision)
-    return not wanted.spec.version or _same(found.version, wanted.spec.version)
+    return not wanted.spec.version or _plain(found.version) == _plain(wanted.spec.version)
 
 
 def _is_from_folder(cog: str, folder: Path) -> bool:
@@ -80,14 +78,11 @@ def distribution_of(cog: str, name: str = "") -> Distribution | None:
             return distribution(each)
         except (PackageNotFoundError, ValueError):
             continue
-    return _bringing(cog)
+    return next((each for each in distributions() if _brings(each, cog)), None)
 
 
-def _bringing(cog: str) -> Distribution | None:
-    for each in distributions():
-        if cog in (each.read_text("top_level.txt") or "").split():
-            return each
-    return None
+def _brings(found: Distribution, cog: str) -> bool:
+    return cog in (found.read_text("top_level.txt") or "").split()
 
 
 def _direct_url(found: Distribution) -> dict[str, Any]:
@@ -97,10 +92,6 @@ def _direct_url(found: Distribution) -> dict[str, Any]:
     except ValueError:
         return {}
     return origin if isinstance(origin, dict) else {}
-
-
-def _same(version: str, wanted: str) -> bool:
-    return _plain(version) == _plain(wanted)
 
 
 def _plain(version: str) -> str:

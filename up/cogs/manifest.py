@@ -1,7 +1,5 @@
 """registered_modules.yml: the modules of a cog that an application loads (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

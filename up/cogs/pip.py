@@ -1,7 +1,5 @@
 """One call of pip that installs all missing cogs into this interpreter's environment."""
 
-from __future__ import annotations
-
 import importlib.metadata
 import os
 import subprocess
@@ -22,14 +20,14 @@ from up.cogs.source_tree import (
     normal_name,
 )
 from up.fields import printable
-from up.output import Echo, StatusLine
+from up.output import StatusLine, echo
 
 FRAMEWORK = "raspilot"
 _SHOWN_LINES = 12
 _SHOWN_COLUMNS = 70
 
 
-def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], echo: Echo) -> None:
+def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog]) -> None:
     """Install cogs; raises CogError with pip's last lines and one sentence.
 
     All folders go to one pip call, which resolves their dependencies on each other. ``in_tree`` are
@@ -56,10 +54,10 @@ def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], echo: Ec
         ):
             if cogs:
                 wanted = [word for each in cogs for word in _arguments(each)]
-                run_pip([*command, *options, *wanted], echo)
+                run_pip([*command, *options, *wanted])
 
 
-def run_pip(command: Sequence[str], echo: Echo) -> None:
+def run_pip(command: Sequence[str]) -> None:
     """Run pip; raises CogError with its last lines and one sentence.
 
     A terminal shows pip's newest line: on a Raspberry Pi all cogs take minutes.

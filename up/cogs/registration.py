@@ -1,7 +1,5 @@
 """Finds the Registrant of a cog and runs it."""
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import importlib.util
@@ -15,13 +13,13 @@ from up.cogs.up_registrar import UpRegistrar
 from up.errors import UserError
 from up.loading.application import Application
 from up.loading.plan import reason_of
-from up.output import Echo, echo
+from up.output import echo
 
 REGISTRANT_MODULE = "registrar"
 REGISTRANT_CLASSES = ("Registrant", "Registrar")
 
 
-def register(cog: str, application: Application, source: Source, echo: Echo = echo) -> None:
+def register(cog: str, application: Application, source: Source) -> None:
     """Register an installed cog with an application.
 
     Raises CogError with one sentence or ConfigErrors with the place of every error.
@@ -29,11 +27,11 @@ def register(cog: str, application: Application, source: Source, echo: Echo = ec
     found = find_registrant(cog)
     try:
         if issubclass(found, UpRegistrant):
-            registrant = found(echo)
+            registrant = found()
             _check_importable(registrant, application)
             registrant.register(application, source)
         else:
-            _register_old(found, cog, application, source, echo)
+            _register_old(found, cog, application, source)
     except (UserError, BrokenPipeError):
         raise
     except OSError as error:
@@ -48,7 +46,7 @@ def register(cog: str, application: Application, source: Source, echo: Echo = ec
         ) from error
 
 
-def unregister(cog: str, application: Application, echo: Echo = echo) -> bool:
+def unregister(cog: str, application: Application) -> bool:
     """Unregister a cog, installed or not; return whether it was registered."""
     changed = Registry(application.root).remove(cog)
     code = "cog_unregistered" if changed else "cog_unknown"
@@ -105,9 +103,7 @@ def _check_importable(registrant: UpRegistrant, application: Application) -> Non
             ) from error
 
 
-def _register_old(
-    found: type[Any], cog: str, application: Application, source: Source, echo: Echo
-) -> None:
+def _register_old(found: type[Any], cog: str, application: Application, source: Source) -> None:
     # Old Registrars search for the application in the current directory.
     with contextlib.chdir(application.root):
         registrar = found()
@@ -117,4 +113,4 @@ def _register_old(
                 f"the Registrar of the cog {cog} reports a failure", code="registrant_failed"
             )
         changed = registrar.finish()
-    echo_registered(cog, changed, echo)
+    echo_registered(cog, changed)

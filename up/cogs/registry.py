@@ -1,7 +1,5 @@
 """Writes external_modules.yml, the generated list of an application's cogs (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import os

@@ -1,7 +1,5 @@
 """The distribution metadata of a source folder, read without running its code."""
 
-from __future__ import annotations
-
 import ast
 import re
 import tomllib
@@ -13,7 +11,8 @@ _NAME = re.compile(r"[A-Za-z0-9]([A-Za-z0-9._-]*[A-Za-z0-9])?", re.ASCII)
 
 def distribution_name(folder: Path) -> str:
     """Return the name of the distribution that a folder builds; empty if it is not a literal."""
-    name = _name_in_project(folder / "pyproject.toml") or _name_in_setup(folder / "setup.py")
+    project = _table(folder / "pyproject.toml", "project")
+    name = str(project.get("name", "")) or _name_in_setup(folder / "setup.py")
     return name if is_distribution_name(name) else ""
 
 
@@ -24,7 +23,7 @@ def is_distribution_name(name: str) -> bool:
 
 def normal_name(name: str) -> str:
     """Return a distribution's normalized name: lower case, single dashes."""
-    return "-".join(part for part in name.lower().replace("_", "-").replace(".", "-").split("-"))
+    return re.sub(r"[-_.]+", "-", name).lower()
 
 
 def neighbours(folder: Path) -> dict[str, Path]:
@@ -41,10 +40,6 @@ def builds_with_setuptools(folder: Path) -> bool:
     """Return whether setuptools, not another tool, builds the distribution."""
     backend = _table(folder / "pyproject.toml", "build-system").get("build-backend", "setuptools")
     return str(backend).startswith("setuptools")
-
-
-def _name_in_project(path: Path) -> str:
-    return str(_table(path, "project").get("name", ""))
 
 
 def _table(path: Path, name: str) -> dict[str, Any]:

@@ -1,7 +1,5 @@
 """The base of every cog's Registrant (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 import inspect
 from pathlib import Path
 from typing import Any, ClassVar
@@ -10,7 +8,7 @@ from up.cogs.manifest import MANIFEST_FILE, Manifest, load_manifest
 from up.cogs.registry import Registry, Source
 from up.config import ConfigFile, write_template
 from up.loading.application import Application
-from up.output import Echo, echo
+from up.output import echo
 
 
 class UpRegistrant:
@@ -23,9 +21,6 @@ class UpRegistrant:
     """
 
     CONFIG_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
-
-    def __init__(self, echo: Echo = echo) -> None:
-        self.echo = echo
 
     @property
     def cog_name(self) -> str:
@@ -48,34 +43,27 @@ class UpRegistrant:
         """
         manifest = self.manifest
         if manifest.recorders:
-            self.echo(
+            echo(
                 f"{self.cog_name}: {MANIFEST_FILE} lists recorders; they are ignored, make them"
                 " Thread Modules"
             )
         changed = Registry(application.root).add(self.cog_name, manifest.modules, source)
-        echo_registered(self.cog_name, changed, self.echo)
+        echo_registered(self.cog_name, changed)
         self.create_configuration(application)
         self.prepare(application)
-        return changed
-
-    def unregister(self, application: Application) -> bool:
-        changed = Registry(application.root).remove(self.cog_name)
-        self.echo(f"{self.cog_name}: {'unregistered' if changed else 'was not registered'}")
         return changed
 
     def create_configuration(self, application: Application) -> None:
         for file in self.CONFIG_FILES:
             if write_template(file, application.config_folder):
                 path = application.config_folder / file.filename
-                self.echo(
-                    f"{self.cog_name}: created {path}", "created", cog=self.cog_name, path=path
-                )
+                echo(f"{self.cog_name}: created {path}", "created", cog=self.cog_name, path=path)
 
     def prepare(self, application: Application) -> None:
         """Create everything else that the cog needs."""
 
 
-def echo_registered(cog: str, changed: bool, echo: Echo) -> None:
+def echo_registered(cog: str, changed: bool) -> None:
     """Show that a cog is registered, newly or as before."""
     text = f"{cog}: {'registered' if changed else 'is registered'}"
     echo(text, "cog_registered", cog=cog, changed=changed)

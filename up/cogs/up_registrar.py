@@ -3,8 +3,6 @@
 New cogs extend ``up.cogs.up_registrant.UpRegistrant`` instead.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Mapping
 from pathlib import Path

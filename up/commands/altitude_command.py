@@ -1,10 +1,6 @@
-"""The measured or required altitude of the aircraft."""
+"""The measured or required altitude of the aircraft, and its airspeed."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
-from up.commands.command import BaseCommand, RolesWhere, value
+from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
 
@@ -13,8 +9,18 @@ from up.quick_dataclass import dataclass
 class AltitudeCommand(BaseCommand):
     """An altitude above sea level, measured (``actual``) or asked for (``required``)."""
 
-    NAME: ClassVar[str] = "up.altitude.change"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
-    ROLES_WHERE: ClassVar[RolesWhere] = {"mode": {"required": frozenset({Role.OPERATOR})}}
+    NAME = "up.altitude.change"
+    ROLES = frozenset({Role.SENSOR})
+    ROLES_WHERE = {"mode": {"required": frozenset({Role.OPERATOR})}}
     altitude_m: float = value(key="altitude", minimum=-1000, maximum=30000, unit="m")
     mode: str = value("actual", choices=("actual", "required"))
+
+
+@dataclass(frozen=True, slots=True)
+class AirspeedCommand(BaseCommand):
+    """A true airspeed, and the differential pressure that it was computed from."""
+
+    NAME = "up.airspeed.update"
+    ROLES = frozenset({Role.SENSOR})
+    airspeed_m_s: float = value(key="airspeed", minimum=0, maximum=150, unit="m/s")
+    pressure_pa: float | None = value(None, key="pressure", unit="Pa")

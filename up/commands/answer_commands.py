@@ -1,9 +1,5 @@
 """The answers to Commands that carried an id."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -17,8 +13,8 @@ MAX_REASON, MAX_DETAIL = 500, 32
 class AckCommand(BaseCommand):
     """The Command with that id was carried out."""
 
-    NAME: ClassVar[str] = "up.ack"
-    ROLES: ClassVar[frozenset[Role]] = _ANYBODY
+    NAME = "up.ack"
+    ROLES = _ANYBODY
     command_id: str = value(key="id", max_length=64)
 
 
@@ -26,8 +22,8 @@ class AckCommand(BaseCommand):
 class NackCommand(BaseCommand):
     """The Command with that id was not carried out, and why; ``detail`` is its handler's code."""
 
-    NAME: ClassVar[str] = "up.nack"
-    ROLES: ClassVar[frozenset[Role]] = _ANYBODY
+    NAME = "up.nack"
+    ROLES = _ANYBODY
     command_id: str = value(key="id", max_length=64)
     code: str = value(max_length=32)
     reason: str = value("", max_length=MAX_REASON)
@@ -41,7 +37,7 @@ class CommandAnsweredCommand(BaseCommand):
     ``key`` names the device's key, empty on a plain link; ``age_ms`` is the age of the beacon.
     """
 
-    NAME: ClassVar[str] = "up.command.answered"
+    NAME = "up.command.answered"
     link: str = value(max_length=64)
     name: str = value(max_length=64)
     command_id: str | None = value(None, key="id", max_length=64)

@@ -1,7 +1,5 @@
 """The action of a Command as an object (thesis 4.1.4)."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import Any
 

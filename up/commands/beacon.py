@@ -1,7 +1,5 @@
 """Beacons: the age of the newest telemetry that the sender of a Command had received."""
 
-from __future__ import annotations
-
 from collections import deque
 from random import Random, SystemRandom
 
@@ -41,7 +39,6 @@ class Beacons:
         return number
 
     def was_sent(self, number: int) -> bool:
-        """Return whether a frame of this run had this number."""
         return self._run_start <= number < self._next
 
     def age_s(self, number: int) -> float | None:

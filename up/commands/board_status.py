@@ -3,8 +3,6 @@
 The status may come from the board, or from a log, where fields may be absent or invalid.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The Command: a named, typed and validated message (thesis 4.1.4)."""
 
-from __future__ import annotations
-
 import dataclasses
 import types
 import typing

@@ -1,7 +1,5 @@
 """The bus: delivers every Command to its subscribers (thesis 4.1.4)."""
 
-from __future__ import annotations
-
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Coroutine
@@ -53,7 +51,6 @@ class CommandExecutor:
         "_is_dispatching",
         "_is_draining",
         "_logged_names",
-        "_observers",
         "_observing",
         "_subscribers",
         "_thread",
@@ -83,7 +80,6 @@ class CommandExecutor:
         self._thread = threading.get_ident()
         self._subscribers: dict[str, tuple[tuple[UUID, Handler], ...]] = {}
         self._handlers: dict[str, tuple[Handler, ...]] = {}
-        self._observers: tuple[tuple[UUID, Handler], ...] = ()
         self._observing: tuple[Handler, ...] = ()
         # Observers and handlers by Command, apart for those that need control.
         self._called: dict[str, tuple[Handler, ...]] = {}
@@ -124,8 +120,8 @@ class CommandExecutor:
         if not self._unsubscribe(name, handle):
             raise KeyError(f"no handler {handle} for {name}")
 
-    def add_observer(self, call: Observe) -> UUID:
-        """Call ``call(command, origin)`` with every Command before its handlers; return the handle.
+    def add_observer(self, call: Observe) -> None:
+        """Call ``call(command, origin)`` with every Command before its handlers.
 
         It also receives Commands without a handler; a Command that only observers receive stays
         unhandled. An observer must return immediately; its return value is ignored, so it can
@@ -134,19 +130,14 @@ class CommandExecutor:
         """
         if not callable(call) or iscoroutinefunction(call):
             raise TypeError(f"{call!r} cannot observe: it is not a plain callable")
-        handle = uuid4()
-        self._observers = (*self._observers, (handle, self._handing_origin(call)))
+
+        def observe(command: BaseCommand) -> None:
+            call(command, self.origin)
+
+        observer = update_wrapper(observe, call)
+        self._observing = (*self._observing, observer)
         self._rebuild_called()
-        add_cleanup(lambda: self._drop_observer(handle))
-        return handle
-
-    def remove_observer(self, handle: UUID) -> None:
-        """Remove an observer; raises KeyError for an unknown handle."""
-        if not self._drop_observer(handle):
-            raise KeyError(f"no observer {handle}")
-
-    def has_handlers(self, command: type[BaseCommand] | str) -> bool:
-        return bool(self._handlers.get(self._name_of(command)))
+        add_cleanup(lambda: self._drop_observer(observer))
 
     def handlers_of(self, command: type[BaseCommand] | str) -> tuple[Handler, ...]:
         """Return the subscribers of a Command in order, without observers."""
@@ -284,27 +275,16 @@ class CommandExecutor:
             self._handlers.pop(name, None)
         self._rebuild_called()
 
-    def _drop_observer(self, handle: UUID) -> bool:
-        left = tuple(each for each in self._observers if each[0] != handle)
-        if len(left) == len(self._observers):
-            return False
-        self._observers = left
+    def _drop_observer(self, observer: Handler) -> None:
+        self._observing = tuple(each for each in self._observing if each is not observer)
         self._rebuild_called()
-        return True
 
     def _rebuild_called(self) -> None:
-        observing = self._observing = tuple(call for _, call in self._observers)
         self._called, self._controlled = {}, {}
         for name, handlers in self._handlers.items():
             needs_control = getattr(self.registry.get(name), "NEEDS_CONTROL", False)
             table = self._controlled if needs_control else self._called
-            table[name] = (*observing, *handlers)
-
-    def _handing_origin(self, call: Observe) -> Handler:
-        def observe(command: BaseCommand) -> None:
-            call(command, self.origin)
-
-        return update_wrapper(observe, call)
+            table[name] = (*self._observing, *handlers)
 
     def _count_unhandled(self, name: str) -> None:
         self.counters["unhandled"] += 1

@@ -1,7 +1,5 @@
 """A link that delivers Commands: its role, its answers, the ids that it has seen."""
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The mediator between the outside and the bus (thesis 3.2.1, 4.1.4)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The known Commands: names and aliases to classes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from up.commands.command import BaseCommand, wire_fields

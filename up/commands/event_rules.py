@@ -1,7 +1,5 @@
 """Applies the rules of schema/ for events to values of telemetry."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import field

@@ -1,9 +1,5 @@
 """The flight: what the board reports of it, what the ground requests, its limits."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -16,8 +12,8 @@ class FlightStateCommand(BaseCommand):
     ``is_in_flight`` is None while the board does not say enough to know.
     """
 
-    NAME: ClassVar[str] = "up.flight.state"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    NAME = "up.flight.state"
+    ROLES = frozenset({Role.BOARD})
     flight_mode: str | None = value(max_length=16)
     is_armed: bool = value(key="armed")
     is_auto: bool = value(key="auto")
@@ -26,11 +22,23 @@ class FlightStateCommand(BaseCommand):
 
 
 @dataclass(frozen=True, slots=True)
+class ServoCommand(BaseCommand):
+    """The four servo outputs that the board drives now, in microseconds of pulse."""
+
+    NAME = "up.servo.update"
+    ROLES = frozenset({Role.BOARD})
+    ailerons_us: int = value(key="ailerons", minimum=0, maximum=3000, unit="us")
+    elevator_us: int = value(key="elevator", minimum=0, maximum=3000, unit="us")
+    throttle_us: int = value(key="throttle", minimum=0, maximum=3000, unit="us")
+    rudder_us: int = value(key="rudder", minimum=0, maximum=3000, unit="us")
+
+
+@dataclass(frozen=True, slots=True)
 class FlightBatteryCommand(BaseCommand):
     """The voltage of the flight battery under its present load, and the load where it is known."""
 
-    NAME: ClassVar[str] = "up.flight_battery.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD, Role.SENSOR})
+    NAME = "up.flight_battery.update"
+    ROLES = frozenset({Role.BOARD, Role.SENSOR})
     voltage_v: float = value(key="voltage", minimum=0, maximum=66, unit="V")
     current_a: float | None = value(None, key="current", minimum=-1000, maximum=1000, unit="A")
 
@@ -42,10 +50,30 @@ class FlightModeCommand(BaseCommand):
     The board's FBW and RATE, AUTO for the Raspberry Pi, or the name of one of its flight modes.
     """
 
-    NAME: ClassVar[str] = "up.flight_mode.set"
-    TITLE: ClassVar[str] = "Flight mode {}"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    NAME = "up.flight_mode.set"
+    TITLE = "Flight mode {}"
+    ROLES = frozenset({Role.OPERATOR})
     mode: str = value(max_length=32)
+
+
+@dataclass(frozen=True, slots=True)
+class ArmCommand(BaseCommand):
+    """Arm; the board decides, and an arming veto or a missing beacon refuses it before."""
+
+    NAME = "up.arm"
+    TITLE = "Arm"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True
+
+
+@dataclass(frozen=True, slots=True)
+class DisarmCommand(BaseCommand):
+    """Disarm; refused without a fresh beacon and unless the throttle has been low for 2 s."""
+
+    NAME = "up.disarm"
+    TITLE = "Disarm"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True
 
 
 DEFAULT_LIMITS_DEG = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
@@ -59,7 +87,7 @@ class FlyByWireLimitsCommand(BaseCommand):
     Published whenever a board answers that may be another one, before it lets anybody fly.
     """
 
-    NAME: ClassVar[str] = "up.flight.limits"
+    NAME = "up.flight.limits"
     roll_deg: float | None = value(None, minimum=0, maximum=90, unit="deg")
     pitch_up_deg: float | None = value(None, minimum=0, maximum=90, unit="deg")
     pitch_down_deg: float | None = value(None, minimum=0, maximum=90, unit="deg")

@@ -54,7 +54,6 @@ class GainSet:
 
     @property
     def has_rudder(self) -> bool:
-        """Return whether this is the three-axis form."""
         return self.rate.rudder is not None
 
     def completed(self, other: GainSet) -> GainSet:

@@ -1,10 +1,6 @@
 """The measured or required heading of the aircraft."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
-from up.commands.command import BaseCommand, RolesWhere, value
+from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
 
@@ -13,8 +9,8 @@ from up.quick_dataclass import dataclass
 class HeadingCommand(BaseCommand):
     """A heading clockwise from north, measured (``actual``) or asked for (``required``)."""
 
-    NAME: ClassVar[str] = "up.heading.change"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
-    ROLES_WHERE: ClassVar[RolesWhere] = {"mode": {"required": frozenset({Role.OPERATOR})}}
+    NAME = "up.heading.change"
+    ROLES = frozenset({Role.SENSOR})
+    ROLES_WHERE = {"mode": {"required": frozenset({Role.OPERATOR})}}
     heading_deg: float = value(key="heading", minimum=-360, maximum=360, unit="deg")
     mode: str = value(choices=("actual", "required"))

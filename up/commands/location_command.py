@@ -1,9 +1,5 @@
 """The position of the aircraft."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -21,9 +17,9 @@ class LocationCommand(BaseCommand):
     not known.
     """
 
-    NAME: ClassVar[str] = "up.location.update"
-    ALIASES: ClassVar[tuple[str, ...]] = ("up.location.change",)
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    NAME = "up.location.update"
+    ALIASES = ("up.location.change",)
+    ROLES = frozenset({Role.SENSOR})
     latitude_deg: float = value(key="latitude", minimum=-90, maximum=90, unit="deg")
     longitude_deg: float = value(key="longitude", minimum=-180, maximum=180, unit="deg")
     altitude_m: float | None = value(None, key="altitude", minimum=-1000, maximum=100000, unit="m")

@@ -1,8 +1,6 @@
 """Upload, read back and continue a mission or a fence (docs/mission.md)."""
 
-from __future__ import annotations
-
-from typing import Any, ClassVar
+from typing import Any
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
@@ -36,9 +34,9 @@ class MissionPartCommand(BaseCommand):
     plan (``up.mission.items.plan_id``). Parts of another plan replace them.
     """
 
-    NAME: ClassVar[str] = "up.mission.part"
-    TITLE: ClassVar[str] = "Part of a plan"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    NAME = "up.mission.part"
+    TITLE = "Part of a plan"
+    ROLES = frozenset({Role.OPERATOR})
     plan: str = _plan()
     plan_id: str = _id()
     count: int = _count()
@@ -55,10 +53,10 @@ class MissionCommitCommand(BaseCommand):
     before stays in use.
     """
 
-    NAME: ClassVar[str] = "up.mission.commit"
-    TITLE: ClassVar[str] = "Use the plan"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.mission.commit"
+    TITLE = "Use the plan"
+    ROLES = frozenset({Role.OPERATOR})
+    NEEDS_BEACON = True
     plan: str = _plan()
     plan_id: str = _id()
     count: int = _count()
@@ -68,9 +66,9 @@ class MissionCommitCommand(BaseCommand):
 class MissionRequestCommand(BaseCommand):
     """Asks for the part of the plan in use that begins with an item; the aircraft sends it."""
 
-    NAME: ClassVar[str] = "up.mission.request"
-    TITLE: ClassVar[str] = "Read the plan"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
+    NAME = "up.mission.request"
+    TITLE = "Read the plan"
+    ROLES = frozenset({Role.OBSERVER})
     plan: str = _plan()
     first: int = value(1, minimum=1, maximum=_MAX_ITEMS)
 
@@ -79,10 +77,10 @@ class MissionRequestCommand(BaseCommand):
 class MissionItemCommand(BaseCommand):
     """The item that MISSION flies next; in MISSION it is flown immediately."""
 
-    NAME: ClassVar[str] = "up.mission.item"
-    TITLE: ClassVar[str] = "Next item"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.mission.item"
+    TITLE = "Next item"
+    ROLES = frozenset({Role.OPERATOR})
+    NEEDS_BEACON = True
     item: int = value(minimum=1, maximum=_MAX_ITEMS)
 
 
@@ -94,7 +92,7 @@ class MissionProblemsCommand(BaseCommand):
     ``text``; ``untold`` counts those that are not listed.
     """
 
-    NAME: ClassVar[str] = "up.mission.problems"
+    NAME = "up.mission.problems"
     plan: str = _plan()
     plan_id: str = _id()
     problems: tuple[Any, ...] = value(max_length=PART_ITEMS)

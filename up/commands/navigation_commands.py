@@ -1,9 +1,5 @@
 """Where the aircraft is to fly, and where its home is."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -19,10 +15,10 @@ class NavigationTargetCommand(BaseCommand):
     the present altitude. Without ``radius_m``, the radius of LOITER.
     """
 
-    NAME: ClassVar[str] = "up.navigation.target"
-    TITLE: ClassVar[str] = "Target"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.navigation.target"
+    TITLE = "Target"
+    ROLES = frozenset({Role.OPERATOR})
+    NEEDS_BEACON = True
     latitude_deg: float = value(key="latitude", minimum=-90, maximum=90, unit="deg")
     longitude_deg: float = value(key="longitude", minimum=-180, maximum=180, unit="deg")
     altitude_m: float | None = value(None, key="altitude", minimum=-1000, maximum=9000, unit="m")
@@ -41,10 +37,10 @@ class HomeCommand(BaseCommand):
     Without ``altitude_m`` (above sea level) home keeps its altitude, or gets the present one.
     """
 
-    NAME: ClassVar[str] = "up.home.set"
-    TITLE: ClassVar[str] = "Set home"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.home.set"
+    TITLE = "Set home"
+    ROLES = frozenset({Role.OPERATOR})
+    NEEDS_BEACON = True
     latitude_deg: float | None = value(None, key="latitude", minimum=-90, maximum=90, unit="deg")
     longitude_deg: float | None = value(
         None, key="longitude", minimum=-180, maximum=180, unit="deg"

@@ -1,9 +1,5 @@
 """The attitude of the aircraft, and its acceleration."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -18,8 +14,8 @@ class OrientationCommand(BaseCommand):
     ``sequence`` is the board's number of the frame, which an Output computed from it echoes.
     """
 
-    NAME: ClassVar[str] = "up.orientation.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR, Role.BOARD})
+    NAME = "up.orientation.update"
+    ROLES = frozenset({Role.SENSOR, Role.BOARD})
     roll_deg: float = value(key="roll", minimum=-360, maximum=360, unit="deg")
     pitch_deg: float = value(key="pitch", minimum=-360, maximum=360, unit="deg")
     yaw_deg: float = value(key="yaw", minimum=-360, maximum=360, unit="deg")
@@ -39,6 +35,6 @@ class OrientationCommand(BaseCommand):
 class AccelerationCommand(BaseCommand):
     """Change of the speed along the nose: the specific force without gravity, level."""
 
-    NAME: ClassVar[str] = "up.acceleration.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    NAME = "up.acceleration.update"
+    ROLES = frozenset({Role.BOARD})
     forward_m_s2: float = value(key="forward", minimum=-100, maximum=100, unit="m/s2")

@@ -1,7 +1,5 @@
 """The origin of a Command."""
 
-from __future__ import annotations
-
 import re
 
 from up.commands.roles import Role

@@ -1,7 +1,5 @@
 """Publishes the outcome of each external Command on the bus, for the flight log."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 from up.commands.answer_commands import MAX_DETAIL, MAX_REASON, CommandAnsweredCommand

@@ -1,9 +1,5 @@
 """What a flight controller on the Raspberry Pi sends: servo positions or an attitude to hold."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
 from up.quick_init import quick_init
@@ -17,8 +13,8 @@ class OutputCommand(BaseCommand):
     Throttle 0 leaves it to the stick. The board refuses an Output whose frame is too old.
     """
 
-    NAME: ClassVar[str] = "up.output.set"
-    NEEDS_CONTROL: ClassVar[bool] = True
+    NAME = "up.output.set"
+    NEEDS_CONTROL = True
     ailerons_us: int = value(key="ailerons", minimum=1000, maximum=2000, unit="us")
     elevator_us: int = value(key="elevator", minimum=1000, maximum=2000, unit="us")
     throttle_us: int = value(key="throttle", minimum=0, maximum=2000, unit="us")
@@ -35,8 +31,8 @@ class SetpointCommand(BaseCommand):
     allows it (airframe.yml: receiver_lost: pi_may_fly); after ``lifetime_ms`` the board circles.
     """
 
-    NAME: ClassVar[str] = "up.setpoint.set"
-    NEEDS_CONTROL: ClassVar[bool] = True
+    NAME = "up.setpoint.set"
+    NEEDS_CONTROL = True
     roll_deg: float = value(key="roll", minimum=-90, maximum=90, unit="deg")
     pitch_deg: float = value(key="pitch", minimum=-90, maximum=90, unit="deg")
     yaw_rate_deg_s: float = value(0.0, key="yaw_rate", minimum=-300, maximum=300, unit="deg/s")

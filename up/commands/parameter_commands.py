@@ -1,8 +1,6 @@
 """Keys of configuration files that a ground reads and sets."""
 
-from __future__ import annotations
-
-from typing import Any, ClassVar
+from typing import Any
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
@@ -15,9 +13,9 @@ MAX_VALUE = 64
 class ParameterRequestCommand(BaseCommand):
     """Asks for the keys of one file, or of all: the answers are ``up.parameter.values``."""
 
-    NAME: ClassVar[str] = "up.parameter.request"
-    TITLE: ClassVar[str] = "Request parameters"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
+    NAME = "up.parameter.request"
+    TITLE = "Request parameters"
+    ROLES = frozenset({Role.OBSERVER})
     file: str | None = value(None, max_length=64)
 
 
@@ -30,10 +28,10 @@ class ParameterSetCommand(BaseCommand):
     is a veto against arming.
     """
 
-    NAME: ClassVar[str] = "up.parameter.set"
-    TITLE: ClassVar[str] = "Set parameter"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
-    NEEDS_BEACON: ClassVar[bool] = True
+    NAME = "up.parameter.set"
+    TITLE = "Set parameter"
+    ROLES = frozenset({Role.PILOT})
+    NEEDS_BEACON = True
     file: str = value(max_length=64)
     key: str = value(max_length=128)
     setting: str = value(key="value", max_length=MAX_VALUE)
@@ -43,7 +41,7 @@ class ParameterSetCommand(BaseCommand):
 class ParameterValuesCommand(BaseCommand):
     """The keys of one file with their values in use, and those that act at the next start."""
 
-    NAME: ClassVar[str] = "up.parameter.values"
+    NAME = "up.parameter.values"
     file: str = value(max_length=64)
     values: dict[str, Any] = value()
     next_start: dict[str, Any] = value()

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand, RolesWhere, value
+from up.commands.command import BaseCommand, value
 from up.commands.gains import GainSet, gain_set_from_data, gain_set_to_data
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -14,10 +14,10 @@ from up.quick_dataclass import dataclass
 class PIDTuningsCommand(BaseCommand):
     """Asks for the gains (``request``) or sets all of them (``pids``); a request wins."""
 
-    NAME: ClassVar[str] = "arduino.pids.tunings"
-    TITLE: ClassVar[str] = "Gains"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
-    ROLES_WHERE: ClassVar[RolesWhere] = {"request": {True: frozenset({Role.OBSERVER})}}
+    NAME = "arduino.pids.tunings"
+    TITLE = "Gains"
+    ROLES = frozenset({Role.PILOT})
+    ROLES_WHERE = {"request": {True: frozenset({Role.OBSERVER})}}
     request: bool | None = value(None)
     pids: dict[str, Any] | None = value(None)
 
@@ -39,7 +39,7 @@ class PIDTuningsCommand(BaseCommand):
 class PIDTuningsValuesCommand(BaseCommand):
     """The gains in use now, in full precision, in the form that PIDTuningsCommand takes."""
 
-    NAME: ClassVar[str] = "arduino.pids.values"
+    NAME = "arduino.pids.values"
     pids: dict[str, Any] = value()
 
     @classmethod

@@ -1,7 +1,5 @@
 """Control of the servos: one publisher of set-points and Outputs at a time."""
 
-from __future__ import annotations
-
 import sys
 from collections import Counter
 from collections.abc import Callable

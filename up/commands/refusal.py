@@ -1,7 +1,5 @@
 """Reasons why a Command is not carried out; the board's own are in schema/status.yml."""
 
-from __future__ import annotations
-
 from enum import Enum
 
 

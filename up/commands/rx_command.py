@@ -1,9 +1,5 @@
 """The pilot's stick inputs."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -15,8 +11,8 @@ ALL_VALID = 0b111111
 class RXCommand(BaseCommand):
     """The six receiver inputs in microseconds of pulse; ``valid`` has a bit for each, in order."""
 
-    NAME: ClassVar[str] = "up.rx.update"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    NAME = "up.rx.update"
+    ROLES = frozenset({Role.BOARD})
     ailerons_us: int = value(key="ailerons", minimum=0, maximum=3000, unit="us")
     elevator_us: int = value(key="elevator", minimum=0, maximum=3000, unit="us")
     throttle_us: int = value(key="throttle", minimum=0, maximum=3000, unit="us")

@@ -1,7 +1,5 @@
 """Rows of the tables in ``board_schema`` and ``telemetry_schema``."""
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple
 
 

@@ -1,8 +1,4 @@
-"""The system as a whole: its state, its links, its end."""
-
-from __future__ import annotations
-
-from typing import ClassVar
+"""The system as a whole: its state, its load, its links, its end."""
 
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
@@ -12,7 +8,7 @@ from up.quick_dataclass import dataclass
 class SystemStateCommand(BaseCommand):
     """The state of the system (thesis 3.3.5), published once a second."""
 
-    NAME: ClassVar[str] = "up.system.state"
+    NAME = "up.system.state"
     utilization_percent: float = value(key="utilization", unit="percent")
     memory_percent: float = value(key="memory", unit="percent")
     providers: tuple[str, ...] = value()
@@ -24,14 +20,27 @@ class SystemStateCommand(BaseCommand):
 class SystemStopCommand(BaseCommand):
     """Stops the program; only modules of the program may send it."""
 
-    NAME: ClassVar[str] = "up.system.stop"
+    NAME = "up.system.stop"
+
+
+@dataclass(frozen=True, slots=True)
+class PanicCommand(BaseCommand):
+    """Enters or leaves Panic Mode; ``delay_ms`` is the period that every sender shall keep."""
+
+    NAME = "up.panic"
+    ALIASES = ("load_guard.panic",)
+    panic: bool = value()
+    delay_ms: int = value(minimum=10, maximum=1000, unit="ms")
+    utilization_percent: float | None = value(
+        None, key="utilization", minimum=0, maximum=100, unit="percent"
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class LinkStateCommand(BaseCommand):
     """A link came or went: ``link`` is its name; its origin's role says what it links to."""
 
-    NAME: ClassVar[str] = "up.link.state"
+    NAME = "up.link.state"
     link: str = value(max_length=64)
     connected: bool = value()
 
@@ -40,6 +49,6 @@ class LinkStateCommand(BaseCommand):
 class SourceSelectedCommand(BaseCommand):
     """A provider uses another source from now on; ``source`` is the name of its link."""
 
-    NAME: ClassVar[str] = "up.source.selected"
+    NAME = "up.source.selected"
     reading: str = value(max_length=64)
     source: str = value(max_length=64)

@@ -1,8 +1,6 @@
 """Telemetry and its period."""
 
-from __future__ import annotations
-
-from typing import Any, ClassVar
+from typing import Any
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
@@ -16,7 +14,7 @@ MAX_PERIOD_MS = 10_000
 class TelemetryCommand(BaseCommand):
     """One frame of telemetry (thesis 4.1.5) and its beacon number."""
 
-    NAME: ClassVar[str] = "up.telemetry.update"
+    NAME = "up.telemetry.update"
     content: dict[str, Any] = value()
     beacon: int = value(minimum=0)
 
@@ -30,9 +28,9 @@ class TelemetryCommand(BaseCommand):
 class TelemetryFrequencyCommand(BaseCommand):
     """The period of telemetry that the ground wants; the prototype called it a frequency."""
 
-    NAME: ClassVar[str] = "up.telemetry.frequency"
-    TITLE: ClassVar[str] = "Telemetry period {} ms"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    NAME = "up.telemetry.frequency"
+    TITLE = "Telemetry period {} ms"
+    ROLES = frozenset({Role.OPERATOR})
     period_ms: float = value(
         key="frequency", minimum=MIN_PERIOD_MS, maximum=MAX_PERIOD_MS, unit="ms"
     )

@@ -1,7 +1,5 @@
 """config.yml: what concerns the whole application."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from up.config.file import ConfigFile

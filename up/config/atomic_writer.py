@@ -1,7 +1,5 @@
 """Writes configuration files atomically."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import json

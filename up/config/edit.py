@@ -1,7 +1,5 @@
 """Changes one value in the text of a configuration file and keeps everything else in it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from up.config.nodes import MapNode, Node, ScalarNode, compose

@@ -1,7 +1,5 @@
 """A configuration file: its name, its schema, and how it is read and written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """keys.yml: the paired devices that may open protected sessions (docs/security.md)."""
 
-from __future__ import annotations
-
 import os
 import re
 import secrets

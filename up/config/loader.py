@@ -1,7 +1,5 @@
 """Reads a configuration file as text, whatever its path refers to."""
 
-from __future__ import annotations
-
 import os
 import stat
 from pathlib import Path

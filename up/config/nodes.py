@@ -129,7 +129,6 @@ def _syntax_sentence(error: yaml.MarkedYAMLError) -> str:
 
 
 def _advice(error: yaml.MarkedYAMLError) -> str:
-    """Return the most likely remedy."""
     context = str(error.context)
     if "block" in context:
         return ": is the indentation right?"

@@ -1,7 +1,5 @@
 """Values that the program itself learns and saves, such as gains tuned in flight."""
 
-from __future__ import annotations
-
 import contextlib
 from pathlib import Path
 from typing import Generic, TypeVar, cast

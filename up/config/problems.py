@@ -1,7 +1,5 @@
 """Problems of configuration files, with their codes and places, for people to fix."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -100,7 +98,6 @@ class Problems:
         key: str = "",
         value: str = "",
     ) -> None:
-        """Add a problem, as a Report."""
         if len(self.found) == MAX_PROBLEMS:
             what = f"more than {MAX_PROBLEMS} problems, the rest is not shown"
             code, key, value = "more_problems", "", ""

@@ -4,8 +4,6 @@ YAML 1.1 reads an unquoted `no` as false, `12:30` as 750 and `010` as 8. Here th
 type, and a text value that YAML could read as another type must be quoted.
 """
 
-from __future__ import annotations
-
 import re
 
 from up.config.nodes import ScalarNode

@@ -67,13 +67,13 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class _Declared:
-    """The declaration of a dataclass field before its annotation is known."""
+    """The declaration of a dataclass field; for a key before its annotation is known."""
 
-    kind: str
     comment: str
     name: str | None
-    replaced: tuple[str, ...]
-    bounds: Mapping[str, Any]
+    spec: Spec | None = None
+    bounds: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    replaced: tuple[str, ...] = ()
 
 
 def key(
@@ -86,7 +86,6 @@ def key(
     maximum: float | None = None,
     choices: tuple[Any, ...] | None = None,
     max_length: int | None = None,
-    nullable: bool = False,
     ignore_case: bool = False,
     is_secret: bool = False,
     replaced: tuple[str, ...] = (),
@@ -104,11 +103,9 @@ def key(
         "maximum": maximum,
         "choices": choices,
         "max_length": max_length,
-        "nullable": nullable,
         "ignore_case": ignore_case,
     }
-    declared = _Declared("key", comment, name, replaced, bounds)
-    metadata = {_METADATA: declared}
+    metadata = {_METADATA: _Declared(comment, name, None, bounds, replaced)}
     return dataclasses.field(default=default, repr=not is_secret, metadata=metadata)
 
 
@@ -118,10 +115,9 @@ def section(
     *,
     name: str | None = None,
     optional: bool = False,
-    replaced: tuple[str, ...] = (),
 ) -> T:
     """Declare a map with known keys, itself a dataclass; an absent `optional` one reads as None."""
-    declared = _Declared("section", comment, name, replaced, {"cls": cls})
+    declared = _Declared(comment, name, schema_of(cls))
     factory: Any = (lambda: None) if optional else cls
     return cast(T, dataclasses.field(default_factory=factory, metadata={_METADATA: declared}))
 
@@ -134,11 +130,9 @@ def mapping(
     default: Mapping[str, Any] | None = None,
     name: str | None = None,
     max_length: int | None = 1000,
-    replaced: tuple[str, ...] = (),
 ) -> Any:
     """Declare a map with free keys, read into a dict; in a file it replaces the whole default."""
-    spec = MapOf(key, _spec_of(value), max_length)
-    declared = _Declared("free", comment, name, replaced, {"spec": spec})
+    declared = _Declared(comment, name, MapOf(key, _spec_of(value), max_length))
     start = dict(default or {})
     return dataclasses.field(default_factory=lambda: dict(start), metadata={_METADATA: declared})
 
@@ -150,11 +144,9 @@ def items(
     default: Iterable[Any] = (),
     name: str | None = None,
     max_length: int | None = 1000,
-    replaced: tuple[str, ...] = (),
 ) -> Any:
     """Declare a list, read into a tuple; in a file it replaces the whole default."""
-    spec = ListOf(_spec_of(item), max_length)
-    declared = _Declared("free", comment, name, replaced, {"spec": spec})
+    declared = _Declared(comment, name, ListOf(_spec_of(item), max_length))
     return dataclasses.field(default=tuple(default), metadata={_METADATA: declared})
 
 
@@ -178,20 +170,13 @@ def _entry_of(cls: type[Any], field: dataclasses.Field[Any]) -> Entry:
     declared = field.metadata.get(_METADATA)
     if not isinstance(declared, _Declared):
         raise TypeError(f"{where} is not declared with key, section, mapping or items")
-    if isinstance(field.default_factory, type) or callable(field.default_factory):
-        default = field.default_factory()
-    else:
-        default = field.default
-    spec: Spec
-    comment = declared.comment
-    if declared.kind == "section":
-        spec = schema_of(declared.bounds["cls"])
-        comment = comment or spec.comment
-    elif declared.kind == "key":
+    default = field.default_factory() if callable(field.default_factory) else field.default
+    spec, comment = declared.spec, declared.comment
+    if spec is None:
         spec = _constraint_of(cls, field, declared.bounds, where)
+    if isinstance(spec, Schema):
+        comment = comment or spec.comment
     else:
-        spec = declared.bounds["spec"]
-    if not isinstance(spec, Schema):
         try:
             _check_default(spec, default)
         except ValueError as error:

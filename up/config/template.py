@@ -1,7 +1,5 @@
 """Writes a commented configuration file from a schema and its values."""
 
-from __future__ import annotations
-
 import math
 import re
 import textwrap
@@ -69,7 +67,6 @@ def _section(name: str, schema: Schema, value: Any, indent: str) -> Iterator[str
 
 
 def _pair(name: str, value: Any, indent: str) -> Iterator[str]:
-    """Yield the lines of `name: value` for a plain value."""
     if isinstance(value, dict) and value:
         yield f"{indent}{name}:"
         for key, inner in value.items():

@@ -1,7 +1,5 @@
 """Converts a tree of nodes to the values that a schema declares, with every problem's place."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, Protocol, runtime_checkable
 

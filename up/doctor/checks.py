@@ -1,7 +1,5 @@
 """The checks of a machine: what each examines, and what to do about a fault."""
 
-from __future__ import annotations
-
 import importlib.metadata
 import platform
 import re
@@ -9,8 +7,9 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import Literal
 
+from up.cogs.source_tree import normal_name
 from up.doctor.machine import Machine
-from up.flight_log.flights_folder import default_folder
+from up.flight_log.flight_file import default_folder
 from up.quick_dataclass import dataclass
 from up.version import BUILT_S, VERSION
 
@@ -51,15 +50,12 @@ def _packages() -> Iterator[Row]:
     """Check the requirements of this version, and that the cogs have the same version."""
     text = f"Python {platform.python_version()} in {sys.prefix}, Up {VERSION}"
     yield Row("python", "ok", text)
-    versions = {
-        re.sub(r"[-_.]+", "-", each.name).lower(): each.version
-        for each in importlib.metadata.distributions()
-    }
+    versions = {normal_name(each.name): each.version for each in importlib.metadata.distributions()}
     faults = []
     for each in importlib.metadata.requires(DISTRIBUTION) or [] if DISTRIBUTION in versions else []:
         found = re.match(r"([\w.-]+)\s*>=\s*([\d.]+)", each)
         if found and "extra ==" not in each:
-            version = versions.get(re.sub(r"[-_.]+", "-", found[1]).lower(), "")
+            version = versions.get(normal_name(found[1]), "")
             if _numbers(version) < _numbers(found[2]):
                 faults.append(f"{found[1]} {version or 'missing'}, needed is {found[2]}")
     ours = {name for name in versions if re.fullmatch(r"raspilot-.*cog|up-flightlog", name)}

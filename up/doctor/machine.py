@@ -1,7 +1,5 @@
 """What the doctor reads of a machine: files of the kernel, devices, and a few system calls."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import resource
@@ -34,7 +32,6 @@ class Machine:
             return ""
 
     def devices(self, *patterns: str) -> list[Path]:
-        """Return the devices with such names in /dev."""
         return sorted(each for name in patterns for each in (self._root / "dev").glob(name))
 
     def can_open(self, path: Path) -> bool:

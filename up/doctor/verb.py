@@ -1,7 +1,5 @@
 """``up doctor``: examines this machine and prints what to do."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from dataclasses import asdict

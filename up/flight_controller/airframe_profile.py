@@ -1,7 +1,5 @@
 """The keys of airframe.yml: the required profile of the board; null values stay unchanged."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from up.commands.board_schema import SWITCH_MODES

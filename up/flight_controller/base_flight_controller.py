@@ -1,7 +1,5 @@
 """The abstract Flight Controller (thesis 3.2.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
@@ -26,10 +24,6 @@ class BaseFlightController(BaseStartedModule):
 
     rx = needs(BaseRXProvider)
     orientation = needs(UpOrientationProvider)
-
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.flight_mode: str | None = None
 
     def on_init(self) -> None:
         self._providers: dict[str, BaseProvider[Any]] = {

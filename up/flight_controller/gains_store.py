@@ -1,7 +1,5 @@
 """Saves gains without blocking the flight on the disk."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred

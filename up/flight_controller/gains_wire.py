@@ -1,7 +1,5 @@
 """Gains on the serial line: `t`, `T` for two axes, `g`, `G` for three (docs/protocols.md 2.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from struct import Struct, error
 

@@ -1,7 +1,5 @@
 """pids.yml: the last saved gains, in physical units."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from up.commands.gains import MAX_GAIN, Gains, GainSet, LoopGains

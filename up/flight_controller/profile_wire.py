@@ -1,7 +1,5 @@
 """The airframe profile that the board stores (docs/protocols.md 2.6), by keys of airframe.yml."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from struct import Struct
@@ -74,7 +72,6 @@ def _within(key: str, minimum: float, maximum: float, value: Any) -> Any:
 
 
 def _fields() -> Iterator[_Field]:
-    """Yield the fields in the order of the wire."""
     for servo in _SERVOS:
         yield _flag(f"{servo}.reversed")
         yield _number(f"{servo}.trim_us", -200, 200)

@@ -1,7 +1,5 @@
 """The JSON Schema of a Command, so that any program that reads the log knows its fields."""
 
-from __future__ import annotations
-
 import dataclasses
 import typing
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """zstd, which compresses the chunks of a flight log; the package zstandard is optional."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

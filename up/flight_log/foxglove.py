@@ -3,8 +3,6 @@
 Source: https://docs.foxglove.dev/docs/sdk/schemas (foxglove.Log, foxglove.LocationFix).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 LOG = "foxglove.Log"

@@ -1,7 +1,5 @@
 """The gains that differ between two sets, in the ground station's terms."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from math import isclose
 from typing import Any

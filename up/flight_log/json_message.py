@@ -1,7 +1,5 @@
 """Parses the JSON of one logged message strictly: a log may come from anywhere."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """The layout of MCAP, the container of the flight log (https://mcap.dev/spec, version 0)."""
 
-from __future__ import annotations
-
 from enum import IntEnum
 from struct import Struct
 

@@ -1,7 +1,5 @@
 """Writes MCAP: whole records or chunks, one write each, so that a file may end anywhere."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Callable, Mapping
@@ -53,8 +51,6 @@ class McapWriter:
     def __init__(
         self,
         write: Callable[[bytes], object],
-        profile: str = "",
-        library: str = LIBRARY,
         compress: Compress | None = None,
     ) -> None:
         self.size = 0
@@ -64,7 +60,7 @@ class McapWriter:
         self._chunk: list[bytes] = []
         self._chunk_times_ns: list[int] = []
         self._chunks = 0
-        self._header = _text(profile) + _text(library)
+        self._header = _text("") + _text(LIBRARY)
         self._crc = 0
         self._first_ns = 0
         self._last_ns = 0
@@ -87,9 +83,7 @@ class McapWriter:
         self._schemas.append(record)
         return number
 
-    def add_channel(
-        self, topic: str, schema_id: int, metadata: Mapping[str, str] | None = None
-    ) -> int:
+    def add_channel(self, topic: str, schema_id: int) -> int:
         """Write a channel and return its identifier.
 
         ``schema_id`` 0: without a schema. ValueError for an unknown schema, or too many channels.
@@ -98,15 +92,13 @@ class McapWriter:
             raise ValueError(f"unknown schema {schema_id} of {topic}")
         number = _next(len(self._channels), "channels")
         content = CHANNEL.pack(number, schema_id) + _text(topic) + _text(JSON)
-        record = _record(Opcode.CHANNEL, content + _map(metadata or {}))
+        record = _record(Opcode.CHANNEL, content + _map({}))
         self._put(record)
         self._channels.append(record)
         self._counts[number] = 0
         return number
 
-    def message(
-        self, channel_id: int, log_time_ns: int, data: bytes, publish_time_ns: int | None = None
-    ) -> None:
+    def message(self, channel_id: int, log_time_ns: int, data: bytes) -> None:
         """Write a message; ValueError for an unknown channel, or a time that MCAP cannot hold."""
         try:
             count = self._counts[channel_id]
@@ -117,7 +109,7 @@ class McapWriter:
                     channel_id,
                     count % _SEQUENCES,
                     log_time_ns,
-                    log_time_ns if publish_time_ns is None else publish_time_ns,
+                    log_time_ns,
                 )
                 + data
             )
@@ -156,7 +148,6 @@ class McapWriter:
         return len(times_ns)
 
     def add_metadata(self, name: str, values: Mapping[str, str]) -> None:
-        """Write a record of texts by name."""
         record = _record(Opcode.METADATA, _text(name) + _map(values))
         index = METADATA_INDEX.pack(self.size, len(record)) + _text(name)
         self._put(record)

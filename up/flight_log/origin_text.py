@@ -1,7 +1,5 @@
 """The origin of a logged Command, as the flight log writes it."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 from up.commands.origin import INTERNAL, Origin

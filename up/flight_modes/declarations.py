@@ -1,7 +1,5 @@
 """Checks how flight modes are declared: their names, fallbacks, and ``auto_mode``."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Container, Iterable
 

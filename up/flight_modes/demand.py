@@ -1,7 +1,5 @@
 """What a flight mode demands: a path, an attitude, or surfaces."""
 
-from __future__ import annotations
-
 from up.flight_modes.navigation_state import Point
 from up.quick_dataclass import dataclass
 from up.quick_init import quick_init

@@ -1,7 +1,5 @@
 """The base of every flight mode."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import ClassVar, NamedTuple
 
@@ -74,7 +72,7 @@ class FlightMode(BaseModule):
     FALLBACK: ClassVar[str] = "GLIDE"
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True
-    IS_SET_BY_GROUND: ClassVar[bool] = True
+    IS_SET_BY_GROUND = True
 
     successor = ""
     """The mode that replaces this one, once it has set the name, unless that one refuses."""

@@ -1,7 +1,5 @@
 """navigation.yml: how the aircraft flies a path, and the numbers of its airframe."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from up.config import ConfigFile, key, section

@@ -1,7 +1,5 @@
 """What the navigation estimator knows at one instant."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
@@ -33,7 +31,6 @@ class LocalFrame:
         )
 
     def degrees(self, point: Point) -> tuple[float, float]:
-        """Return latitude and longitude."""
         cosine = math.cos(math.radians(self.latitude_deg))
         latitude = self.latitude_deg + math.degrees(point.north_m / MEAN_RADIUS_M)
         longitude = self.longitude_deg + math.degrees(point.east_m / (MEAN_RADIUS_M * cosine))

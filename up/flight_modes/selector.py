@@ -1,7 +1,5 @@
 """Chooses the flight mode that acts: the selected one, or one of its fallbacks."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import fields, is_dataclass

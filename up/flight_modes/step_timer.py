@@ -1,7 +1,5 @@
 """Measures whether a flight mode's step takes too long, on a computer that others use too."""
 
-from __future__ import annotations
-
 import gc
 import resource
 from time import perf_counter
@@ -40,7 +38,6 @@ class StepTimer:
             gc.callbacks.append(_Collections.note)
 
     def start(self) -> None:
-        """Begin a step."""
         self._collected_s = _Collections.total_s
         self._used = resource.getrusage(resource.RUSAGE_THREAD)
         self._started_s = perf_counter()

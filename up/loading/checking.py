@@ -1,7 +1,5 @@
 """Checks a whole application without starting it, and collects all problems."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Adds the discovered Commands and handlers to the plan."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Container
 

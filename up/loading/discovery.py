@@ -1,7 +1,5 @@
 """Finds the classes of an application and its cogs."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import pkgutil

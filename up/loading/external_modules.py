@@ -1,7 +1,5 @@
 """external_modules.yml: the modules of the registered cogs (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Literal
 
@@ -21,7 +19,6 @@ class ModuleEntry:
 
     @property
     def path(self) -> str:
-        """Return the fully qualified name."""
         return f"{self.prefix}.{self.class_name}"
 
     def problems(self) -> Iterable[tuple[str, str, str]]:

@@ -1,7 +1,5 @@
 """Orders modules by their needs, and fills in their references."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 

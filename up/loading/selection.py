@@ -1,7 +1,5 @@
 """Selects among the discovered classes: mode, ``load()``, disabled list, overrides."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -89,10 +87,11 @@ def _without_overridden(
     kept: list[BaseModule] = []
     replaced: list[type[BaseModule]] = []
     for module in modules:
-        over = [each for each in modules if _extends(each, module)]
+        kind = type(module)
+        over = [each for each in modules if type(each) is not kind and isinstance(each, kind)]
         if over:
-            _reject(plan, type(module), f"replaced by {over[-1].path}", "replaced")
-            replaced.append(type(module))
+            _reject(plan, kind, f"replaced by {over[-1].path}", "replaced")
+            replaced.append(kind)
         else:
             kept.append(module)
     conflicts = _conflicts(kept, dict.fromkeys((*builtins, *replaced)))
@@ -127,7 +126,3 @@ def _way_out(base: type[BaseModule]) -> str:
         f" (if {base.__name__} is only what they have in common, begin its name with an"
         " underscore, then it is not a module)"
     )
-
-
-def _extends(module: BaseModule, base: BaseModule) -> bool:
-    return type(module) is not type(base) and isinstance(module, type(base))

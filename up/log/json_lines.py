@@ -1,7 +1,5 @@
 """Events as JSON lines in a file that rotates."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import json
@@ -61,7 +59,6 @@ class RotatingFile:
         self._put(line)
 
     def close(self) -> None:
-        """Close the file; idempotent."""
         descriptor, self._descriptor = self._descriptor, -1
         if descriptor >= 0:
             os.close(descriptor)

@@ -1,7 +1,5 @@
 """The severity of an event, in configuration files, messages and the journal."""
 
-from __future__ import annotations
-
 from constantly import NamedConstant
 from twisted.logger import LogEvent, LogLevel
 

@@ -1,7 +1,5 @@
 """Limits repeated log events."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from typing import Any
 
@@ -19,7 +17,6 @@ class Once:
         self._seen: set[Hashable] = set()
 
     def first(self, key: Hashable) -> bool:
-        """Return whether the key is new, and remember it."""
         if key in self._seen or len(self._seen) >= self._limit:
             return False
         self._seen.add(key)

@@ -1,7 +1,5 @@
 """Sets up the destinations of a program's log."""
 
-from __future__ import annotations
-
 import os
 import sys
 import time

@@ -1,7 +1,5 @@
 """Formats events as lines for people and for the journal."""
 
-from __future__ import annotations
-
 import os
 import threading
 import time

@@ -1,7 +1,5 @@
 """What a mission and a fence consist of."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable

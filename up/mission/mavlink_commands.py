@@ -3,8 +3,6 @@
 Source: the enumeration MAV_CMD of MAVLink's common.xml.
 """
 
-from __future__ import annotations
-
 _TABLE = """
 16 NAV_WAYPOINT, 17 NAV_LOITER_UNLIM, 18 NAV_LOITER_TURNS, 19 NAV_LOITER_TIME,
 20 NAV_RETURN_TO_LAUNCH, 21 NAV_LAND, 22 NAV_TAKEOFF, 23 NAV_LAND_LOCAL, 24 NAV_TAKEOFF_LOCAL,

@@ -1,7 +1,5 @@
 """Mission items as MAVLink's commands: the form that both kinds of file share."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """A mission and a fence as a file holds them, and the problems of such a file."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import field
 from typing import Any, TypeAlias

@@ -3,8 +3,6 @@
 https://docs.qgroundcontrol.com/master/en/qgc-dev-guide/file_formats/plan.html
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from typing import Any, TypeAlias

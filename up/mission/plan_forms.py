@@ -1,7 +1,5 @@
 """Files of ground stations, whatever their form."""
 
-from __future__ import annotations
-
 import dataclasses
 
 from up.commands.mission_commands import MISSION

@@ -1,7 +1,5 @@
 """Upload and download of a mission or a fence (docs/mission.md)."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -94,7 +92,6 @@ class PlanTransfer:
         self._collect(DOWNLOAD)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take any message of the aircraft."""
         if self._on_end is None or message.data.get("plan") not in (None, self.plan):
             return
         try:
@@ -110,7 +107,6 @@ class PlanTransfer:
             self._end(PlanOutcome("unreadable", sanitize_text(str(error), 300)))
 
     def stop(self) -> None:
-        """End without an outcome."""
         self._on_end = None
         self._requests.stop()
         cancel(self._timer)

@@ -1,7 +1,5 @@
 """Commands that are repeated until the aircraft answers each of them."""
 
-from __future__ import annotations
-
 import secrets
 from collections.abc import Callable
 from typing import Any
@@ -63,7 +61,6 @@ class ReliableRequests:
         self._try(secrets.token_hex(8), _Request(command, notify))
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take any message of the aircraft."""
         id_ = message.data.get("id")
         if message.name not in ("up.ack", "up.nack") or not isinstance(id_, str):
             return

@@ -4,8 +4,6 @@ A row has twelve columns: index, current, frame, command, parameters 1 to 7, aut
 first row is home. A line that begins with # is a comment.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from typing import Any

@@ -1,7 +1,5 @@
 """The aircraft's end of protected links: its keys, its sessions, its streams to all grounds."""
 
-from __future__ import annotations
-
 import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import field

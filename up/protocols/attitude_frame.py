@@ -4,8 +4,6 @@ Their data begin with the type of block that deflate reserves, so they are never
 data. A reader makes a whole frame of them, in which every other value has its true age.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any
@@ -102,7 +100,6 @@ def _get(content: Content, path: tuple[str, str], default: Any) -> Any:
 
 
 def _set(content: Content, path: tuple[str, str], change: Any) -> None:
-    """Change a number, where there is one."""
     value = _get(content, path, None)
     if value is not None:
         content[path[0]][path[1]] = change(value)

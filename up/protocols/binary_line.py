@@ -5,8 +5,6 @@ bytes, ESC and the byte with bit 6 inverted; a relay sees whole lines. A message
 as it is.
 """
 
-from __future__ import annotations
-
 PACKED, PROTECTED, HANDSHAKE, SHORT = 0x01, 0x02, 0x03, 0x04
 """The first byte of such a line."""
 TYPES = frozenset({PACKED, PROTECTED, HANDSHAKE, SHORT})

@@ -1,7 +1,5 @@
 """Checked framing of the serial line: COBS, sequence and CRC16 (docs/protocols.md 2.1)."""
 
-from __future__ import annotations
-
 from binascii import crc_hqx
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -97,7 +95,6 @@ class CheckedDecoder:
         self._newest_byte_s = 0.0
 
     def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
-        """Return the frames that `data` completes, in order."""
         if self._tail or self._is_skipping:
             self.expire(now)
         self._newest_byte_s = now

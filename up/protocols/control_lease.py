@@ -4,8 +4,6 @@ The proxy has two leases for each aircraft, its airborne connection and the grou
 aircraft's own listener has one.
 """
 
-from __future__ import annotations
-
 import hmac
 from enum import Enum
 from typing import Generic, Protocol, TypeVar
@@ -102,7 +100,6 @@ class ControlLease(Generic[T]):
         return hmac.compare_digest(token, self.token)
 
     def live_owner(self, now_s: float) -> T | None:
-        """Return the owner while it is alive."""
         return self.owner if self.state(now_s) is State.OWNED else None
 
     def acquire(self, owner: T, token: str | None) -> T | None:

@@ -3,8 +3,6 @@
 AES-256-GCM of the package `cryptography`, which is imported only where secrecy is required.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from up.protocols.envelope import MAC_BYTES, EnvelopeError, Stream, expand, prefixed

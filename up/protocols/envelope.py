@@ -3,8 +3,6 @@
 Standard parts only: HMAC-SHA256 cut to 16 bytes, and HKDF-SHA256 (RFC 5869) for the keys.
 """
 
-from __future__ import annotations
-
 import hmac
 import struct
 
@@ -119,7 +117,6 @@ class Stream:
         return payload
 
     def _protect(self, place: bytes, payload: bytes) -> bytes:
-        """Return the MAC and the protected payload."""
         return self._mac(place, payload) + payload
 
     def _unprotect(self, place: bytes, protected: bytes) -> bytes:

@@ -1,7 +1,5 @@
 """The output of a serial decoder, and its counters."""
 
-from __future__ import annotations
-
 from up.quick_dataclass import dataclass
 
 Frame = tuple[int, bytes, int]

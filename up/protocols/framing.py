@@ -1,7 +1,5 @@
 """The two framings of the serial line by name."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from types import MappingProxyType
 

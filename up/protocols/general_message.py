@@ -1,7 +1,5 @@
 """The General Message: one JSON object per line (docs/protocols.md 4, thesis 3.1.4)."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """A TCP connection that carries General Messages."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 from typing import Protocol as Interface
@@ -136,7 +134,6 @@ class GeneralMessageProtocol(Protocol):
         return self.output.send_newest(message)
 
     def close(self) -> None:
-        """Send waiting data and close; aborts if the peer does not take it within 1 s."""
         if self._is_open:
             self._is_open = False
             self.output.finish()

@@ -1,7 +1,5 @@
 """General Messages over UDP: one object per datagram, one peer at a time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.error import MessageLengthError
@@ -25,7 +23,7 @@ _MAX_PACKET_SIZE = 65536
 
 
 class GeneralMessageDatagrams(DatagramProtocol):
-    """One port, one peer: an address stays the peer until it is silent for `idle_timeout_s`.
+    """One port, one peer: an address stays the peer until it is silent for 1.5 s.
 
     The callbacks are those of `GeneralMessageProtocol`. An empty datagram is a heartbeat. Counters:
     `malformed`, `dropped` (send failed), `foreign` (from another address) and `bucket.refused`
@@ -42,7 +40,6 @@ class GeneralMessageDatagrams(DatagramProtocol):
         on_malformed: OnMalformed,
         on_connected: OnConnected,
         on_lost: OnLost,
-        idle_timeout_s: float = SILENCE_TIMEOUT_S,
         bucket: TokenBucket | None = None,
     ) -> None:
         self.bucket = bucket or TokenBucket(clock, MAX_MESSAGES_HZ, MAX_BURST)
@@ -54,7 +51,6 @@ class GeneralMessageDatagrams(DatagramProtocol):
         self._on_malformed = on_malformed
         self._on_connected = on_connected
         self._on_lost = on_lost
-        self._idle_timeout_s = idle_timeout_s
         self._address: Any = None
         self._heard_s = 0.0
         self._timer: Timer | None = None
@@ -101,7 +97,7 @@ class GeneralMessageDatagrams(DatagramProtocol):
         self._heard_s = self._clock.seconds()
         if self._address is None:
             self._address = addr
-            self._timer = self._clock.callLater(self._idle_timeout_s, self._check_idle)
+            self._timer = self._clock.callLater(SILENCE_TIMEOUT_S, self._check_idle)
             self._on_connected(self)
         if not datagram.strip(b"\r\n"):
             return
@@ -122,11 +118,11 @@ class GeneralMessageDatagrams(DatagramProtocol):
         return self._address is None
 
     def _check_idle(self) -> None:
-        remaining = self._heard_s + self._idle_timeout_s - self._clock.seconds()
+        remaining = self._heard_s + SILENCE_TIMEOUT_S - self._clock.seconds()
         if remaining > 0:
             self._timer = self._clock.callLater(remaining, self._check_idle)
         else:
-            self._lose(f"nothing heard for {self._idle_timeout_s:g} s")
+            self._lose(f"nothing heard for {SILENCE_TIMEOUT_S:g} s")
 
     def _lose(self, why: str) -> None:
         cancel(self._timer)

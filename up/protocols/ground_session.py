@@ -1,7 +1,5 @@
 """The end of a protected link in a ground device."""
 
-from __future__ import annotations
-
 import secrets
 from collections.abc import Callable
 

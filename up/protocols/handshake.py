@@ -4,8 +4,6 @@ A ground sends a hello with a fresh nonce; the aircraft answers with a nonce of 
 Both derive the keys of the session from the paired secret and both nonces.
 """
 
-from __future__ import annotations
-
 import struct
 from dataclasses import fields
 from typing import ClassVar
@@ -24,7 +22,6 @@ from up.protocols.envelope import (
 from up.quick_dataclass import dataclass
 
 NONCE_BYTES = 16
-KEY_ID_BYTES = 8
 ROLES = ("observer", "operator", "pilot", "admin")
 REFUSALS = ("unknown_key", "revoked", "expired", "changed", "secrecy_required")
 _SALT = b"up handshake 1"
@@ -40,7 +37,6 @@ class _Handshake:
         return tuple(getattr(self, each.name) for each in fields(self))
 
     def encode(self, aircraft: bytes, secret: bytes) -> bytes:
-        """Return the body, with its MAC at the end."""
         body = bytes((HANDSHAKE, self.KIND)) + self.FORM.pack(*self._fields())
         return body + _mac(self.LABEL, aircraft, secret, body)
 

@@ -1,7 +1,5 @@
 """Splits a stream of bytes into lines of bounded length."""
 
-from __future__ import annotations
-
 from up.protocols.binary_line import TYPES
 
 MAX_LINE_BYTES = 16384

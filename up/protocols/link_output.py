@@ -1,7 +1,5 @@
 """The send queue of a link: messages in order, of replaceable kinds only the newest."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

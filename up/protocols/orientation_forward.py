@@ -1,7 +1,5 @@
 """The Orientation Forward Protocol: frames of six floats from a sensor (docs/protocols.md 3)."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from struct import Struct
 from typing import NamedTuple
@@ -59,7 +57,6 @@ class OrientationDecoder:
         self._remainder = b""
 
     def feed(self, data: bytes) -> list[OrientationValues]:
-        """Return the frames that `data` completes, in order."""
         length = len(data)
         if length == FRAME_SIZE and not self._remainder:
             # The usual case, flat for speed: `_is_in_range` by squares, exact for 32-bit floats.

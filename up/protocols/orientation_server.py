@@ -115,7 +115,6 @@ class OrientationFactory(_OrientationInput, Factory):
             self._deliver(OrientationFrame._make(values), source)
 
     def lost(self, connection: _OrientationConnection, why: str) -> None:
-        """Remove `connection` if it is the source."""
         if connection is self._current:
             self._current = None
             self._on_lost(connection.source, why)

@@ -8,8 +8,6 @@ against `DICTIONARY`, which every reader has; all other frames can be left out. 
 data there may be an attitude frame.
 """
 
-from __future__ import annotations
-
 import math
 import zlib
 from collections.abc import Callable

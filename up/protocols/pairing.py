@@ -1,7 +1,5 @@
 """The text that pairs a device with an aircraft; a QR code carries it."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import field
 

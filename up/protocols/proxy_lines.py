@@ -3,8 +3,6 @@
 The proxy, the aircraft's uplink and listener, and the ground use this codec. It keeps no state.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import fields
@@ -74,7 +72,7 @@ def _word(value: object) -> str:
 class Accepted(_Line):
     """Proxy to client: the hello is accepted; the token resumes this access."""
 
-    FORMAT: ClassVar[str] = "ok aircraft={aircraft} seat={access} token={token}"
+    FORMAT = "ok aircraft={aircraft} seat={access} token={token}"
     aircraft: str
     access: Access
     token: str
@@ -84,7 +82,7 @@ class Accepted(_Line):
 class Refused(_Line):
     """Proxy to client: the connection is refused and will be closed."""
 
-    FORMAT: ClassVar[str] = 'error code={code} reason="{reason}"'
+    FORMAT = 'error code={code} reason="{reason}"'
     code: str
     reason: str
 
@@ -93,7 +91,7 @@ class Refused(_Line):
 class ControlGranted(_Line):
     """Proxy to ground: this ground has control now."""
 
-    FORMAT: ClassVar[str] = "seat command token={token}"
+    FORMAT = "seat command token={token}"
     token: str
 
 
@@ -101,14 +99,14 @@ class ControlGranted(_Line):
 class ControlLost(_Line):
     """Proxy to ground: this ground listens now."""
 
-    FORMAT: ClassVar[str] = "seat listen"
+    FORMAT = "seat listen"
 
 
 @dataclass(frozen=True, slots=True)
 class ControlRequested(_Line):
     """Proxy to the owner: a listener requests control."""
 
-    FORMAT: ClassVar[str] = "seat asked by={by}"
+    FORMAT = "seat asked by={by}"
     by: int
 
 
@@ -116,7 +114,7 @@ class ControlRequested(_Line):
 class ControlOwner(_Line):
     """Proxy to all grounds: the ground that has control; None: no ground has it."""
 
-    FORMAT: ClassVar[str] = "seat holder={number}"
+    FORMAT = "seat holder={number}"
     number: int | None
 
 
@@ -124,7 +122,7 @@ class ControlOwner(_Line):
 class AircraftPresence(_Line):
     """Proxy to all grounds: the airborne side has connected or disconnected."""
 
-    FORMAT: ClassVar[str] = "aircraft {is_online}"
+    FORMAT = "aircraft {is_online}"
     is_online: bool
 
 
@@ -135,7 +133,7 @@ class Watchers(_Line):
     After each such line a ground may lack the present key.
     """
 
-    FORMAT: ClassVar[str] = "watch grounds={grounds} packed={packed} attitude={attitude}"
+    FORMAT = "watch grounds={grounds} packed={packed} attitude={attitude}"
     grounds: int
     packed: int
     attitude: int = 0
@@ -145,28 +143,28 @@ class Watchers(_Line):
 class KeyRequest(_Line):
     """Ground to proxy: a frame of packed telemetry could not be read for want of its key."""
 
-    FORMAT: ClassVar[str] = "key"
+    FORMAT = "key"
 
 
 @dataclass(frozen=True, slots=True)
 class ControlRequest(_Line):
     """Ground to proxy: requests control."""
 
-    FORMAT: ClassVar[str] = "seat request"
+    FORMAT = "seat request"
 
 
 @dataclass(frozen=True, slots=True)
 class ControlRelease(_Line):
     """Owner to proxy: releases control."""
 
-    FORMAT: ClassVar[str] = "seat release"
+    FORMAT = "seat release"
 
 
 @dataclass(frozen=True, slots=True)
 class ControlGive(_Line):
     """Owner to proxy: hands control to the ground with this number."""
 
-    FORMAT: ClassVar[str] = "seat give to={to}"
+    FORMAT = "seat give to={to}"
     to: int
 
 

@@ -1,7 +1,5 @@
 """A protected request to a runner: JSON lines that carry the bodies of a session in hex."""
 
-from __future__ import annotations
-
 import json
 import secrets
 from collections.abc import Callable, Mapping
@@ -46,7 +44,6 @@ class RunnerSession:
         self._session = GroundSession(RUNNER, key_id, secret, random)
 
     def hello(self) -> bytes:
-        """Return the first line."""
         return to_line(self._session.hello())
 
     def request(self, answer: bytes, request: bytes) -> bytes:

@@ -1,7 +1,5 @@
 """The serial line as a transport of the reactor; it reopens after a fault."""
 
-from __future__ import annotations
-
 import os
 from collections import deque
 from collections.abc import Callable, Hashable
@@ -147,7 +145,6 @@ class SerialLine:
             self._lost("reopening")
 
     def fileno(self) -> int:
-        """Return the descriptor; -1 while the port is closed."""
         return self._number
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name

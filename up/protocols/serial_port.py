@@ -1,7 +1,5 @@
 """Opens a serial port by termios: raw, 8N1, no flow control, exclusive."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os
@@ -22,11 +20,11 @@ class SerialPortError(OSError):
         self.code = code
 
 
-def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
+def open_serial(path: str, baud: int) -> int:
     """Return a non-blocking descriptor of the port, set up; raises SerialPortError.
 
-    With `clear_hupcl` closing the port leaves DTR unchanged, so that reopening it does not reset a
-    board in flight. Input that arrived before is discarded.
+    Closing the port leaves DTR unchanged, so that reopening it does not reset a board in flight.
+    Input that arrived before is discarded.
     """
     if not 0 < baud < 1 << 32:
         raise SerialPortError(f"{path} cannot run at {baud} baud", code="speed_unsupported")
@@ -36,7 +34,7 @@ def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
     except (OSError, ValueError) as error:
         raise _not_opened(path, error) from None
     try:
-        _set_up(descriptor, speed or termios.B38400, clear_hupcl=clear_hupcl)
+        _set_up(descriptor, speed or termios.B38400)
         if speed is None:
             _set_unlisted_speed(descriptor, baud)
         _claim(descriptor, path)
@@ -65,16 +63,14 @@ def close_serial(descriptor: int) -> None:
         os.close(descriptor)
 
 
-def _set_up(descriptor: int, speed: int, *, clear_hupcl: bool) -> None:
+def _set_up(descriptor: int, speed: int) -> None:
     """Set HUPCL and all other options in one call, as the first operation on the port."""
     attributes = termios.tcgetattr(descriptor)
     attributes[_IFLAG] = termios.IGNBRK
     attributes[_OFLAG] = 0
     attributes[_LFLAG] = 0
     control = attributes[_CFLAG] | termios.CS8 | termios.CREAD | termios.CLOCAL
-    control &= ~(termios.PARENB | termios.CSTOPB | termios.CRTSCTS)
-    if clear_hupcl:
-        control &= ~termios.HUPCL
+    control &= ~(termios.PARENB | termios.CSTOPB | termios.CRTSCTS | termios.HUPCL)
     attributes[_CFLAG] = control
     attributes[_ISPEED] = attributes[_OSPEED] = speed
     attributes[_CC][termios.VMIN] = 1

@@ -1,7 +1,5 @@
 """Socket options that detect a lost peer quickly."""
 
-from __future__ import annotations
-
 import contextlib
 import socket
 import struct
@@ -30,7 +28,7 @@ UNSENT_LIMIT = 4096
 def watch_peer(transport: Any, user_timeout_ms: int) -> None:
     """Disable Nagle, probe a silent peer, buffer little, and give up on unacknowledged bytes.
 
-    Without a user timeout TCP continues for minutes after a gap and then delivers stale data.
+    Without a user timeout (0) TCP continues for minutes after a gap and then delivers stale data.
     """
     transport.setTcpNoDelay(True)
     transport.setTcpKeepAlive(True)
@@ -38,11 +36,6 @@ def watch_peer(transport: Any, user_timeout_ms: int) -> None:
     set_option(transport, "TCP_KEEPINTVL", KEEPALIVE_INTERVAL_S)
     set_option(transport, "TCP_KEEPCNT", KEEPALIVE_PROBES)
     set_option(transport, "TCP_NOTSENT_LOWAT", UNSENT_LIMIT)
-    set_user_timeout(transport, user_timeout_ms)
-
-
-def set_user_timeout(transport: Any, user_timeout_ms: int) -> None:
-    """Close the connection when sent bytes stay unacknowledged this long; 0: the system default."""
     set_option(transport, "TCP_USER_TIMEOUT", user_timeout_ms)
 
 

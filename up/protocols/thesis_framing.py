@@ -1,7 +1,5 @@
 """Thesis framing of the serial line: type and payload, bare (thesis figure 3.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame, FrameCounters
@@ -34,7 +32,6 @@ class ThesisDecoder:
         self._newest_byte_s = 0.0
 
     def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
-        """Return the frames that `data` completes, in order."""
         frames = self.expire(now)
         self._newest_byte_s = now
         return frames + self._take(self._tail + data, is_silent=False)

@@ -1,9 +1,6 @@
 """The connection with the ground station, over any transport (thesis 4.1.5, 4.2.3)."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
-from typing import Any
 
 from up.base_started_module import BaseStartedModule
 from up.commands.command import BaseCommand
@@ -18,9 +15,7 @@ class BaseMissionControlProvider(BaseStartedModule):
     Commands keep their order: ``_transmit_data``.
     """
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.unsent = 0
+    unsent = 0
 
     def on_init(self) -> None:
         self.up.command_executor.register_command(TelemetryCommand, self.transmit_telemetry)

@@ -1,7 +1,5 @@
 """Selects which of several sources of one reading is followed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,11 +1,8 @@
 """The location of the aircraft, and the distance and bearing to home."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.commands.telemetry_schema import READINGS
 from up.earth import bearing_deg, distance_m
@@ -16,72 +13,32 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
     """Provides the position (WGS 84), and distance and bearing to the first one."""
 
     READING = "location"
-    COMMAND: ClassVar[type[BaseCommand]] = LocationCommand
+    COMMAND = LocationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.home: LocationCommand | None = None
-
-    @property
-    def latitude(self) -> float | None:
-        """Return the newest latitude, deg."""
-        return None if self._reading is None else self._reading.value.latitude_deg
-
-    @property
-    def longitude(self) -> float | None:
-        """Return the newest longitude, deg."""
-        return None if self._reading is None else self._reading.value.longitude_deg
-
-    @property
-    def altitude(self) -> float | None:
-        """Return the newest altitude that came with a position, m."""
-        return None if self._reading is None else self._reading.value.altitude_m
-
-    @property
-    def satellites(self) -> int | None:
-        """Return how many satellites the newest fix uses."""
-        return None if self._reading is None else self._reading.value.satellites
-
-    @property
-    def distance_from_home(self) -> float | None:
-        """Return the distance to the first position, m."""
-        if self._reading is None or self.home is None:
-            return None
-        return distance_m(*_point(self._reading.value), *_point(self.home))
-
-    @property
-    def required_bearing(self) -> float | None:
-        """Return the bearing to the first position, deg clockwise from north."""
-        if self._reading is None or self.home is None:
-            return None
-        return bearing_deg(*_point(self._reading.value), *_point(self.home))
+    home: LocationCommand | None = None
+    """The first position, or the one that the flight controller keeps."""
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        newest = self.value
+        newest, home = self.value, self.home
+        way = None
+        if newest is not None and home is not None:
+            way = (newest.latitude_deg, newest.longitude_deg, home.latitude_deg, home.longitude_deg)
         return {
             "location": {
-                "latitude": self.latitude,
-                "longitude": self.longitude,
-                "altitude": self.altitude,
-                "satellites": self.satellites,
+                "latitude": newest and newest.latitude_deg,
+                "longitude": newest and newest.longitude_deg,
+                "altitude": newest and newest.altitude_m,
+                "satellites": newest and newest.satellites,
                 "accuracy": newest and newest.accuracy_m,
                 "fix": newest and newest.fix,
                 "pdop": newest and newest.pdop,
             },
-            "home": {"distance": self.distance_from_home, "bearing": self.required_bearing},
+            "home": {"distance": way and distance_m(*way), "bearing": way and bearing_deg(*way)},
             **self._ages(),
         }
 
     def _on_changed(self, reading: Reading[LocationCommand]) -> None:
         if self.home is None:
             self.home = reading.value
-        self._on_location_changed()
-
-    def _on_location_changed(self) -> None:
-        """Called for a new location."""
-
-
-def _point(location: LocationCommand) -> tuple[float, float]:
-    return location.latitude_deg, location.longitude_deg

@@ -1,12 +1,9 @@
 """The orientation of the aircraft."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import isfinite
-from typing import Any, ClassVar
+from typing import Any
 
-from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider
@@ -16,7 +13,7 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
     """Provides attitude (deg) and rates (deg/s), from any link."""
 
     READING = "orientation"
-    COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
+    COMMAND = OrientationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     def _is_valid(self, command: Any) -> bool:
@@ -31,25 +28,14 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
         )
 
     @property
-    def roll(self) -> float | None:
-        """Return the newest roll angle, deg."""
-        return None if self._reading is None else self._reading.value.roll_deg
-
-    @property
-    def pitch(self) -> float | None:
-        """Return the newest pitch angle, deg."""
-        return None if self._reading is None else self._reading.value.pitch_deg
-
-    @property
-    def yaw(self) -> float | None:
-        """Return the newest yaw angle, deg."""
-        return None if self._reading is None else self._reading.value.yaw_deg
-
-    @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        newest = None if self._reading is None else self._reading.value
+        newest = self.value
         return {
-            "orientation": {"yaw": self.yaw, "pitch": self.pitch, "roll": self.roll},
+            "orientation": {
+                "yaw": newest and newest.yaw_deg,
+                "pitch": newest and newest.pitch_deg,
+                "roll": newest and newest.roll_deg,
+            },
             "rates": {
                 "yaw": newest and newest.yaw_rate_deg_s,
                 "pitch": newest and newest.pitch_rate_deg_s,

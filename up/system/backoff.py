@@ -1,7 +1,5 @@
 """The delay between two connection attempts of a link to a proxy."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 

@@ -4,8 +4,6 @@ A runner of a pool (docs/pool.md) writes the deadline into a file at each renewa
 clock is CLOCK_BOOTTIME: it counts the time in which the machine is suspended.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import threading

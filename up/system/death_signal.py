@@ -1,7 +1,5 @@
 """A signal for a child process when its parent ends, even by ``kill -9``."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import signal

@@ -1,7 +1,5 @@
 """Work with the disk beside the reactor: an SD card may take a second."""
 
-from __future__ import annotations
-
 import threading
 from _thread import start_new_thread
 from collections import deque
@@ -43,7 +41,6 @@ class DiskThread:
         return done
 
     def wait(self) -> None:
-        """Wait until all work is done."""
         if self._newest is not None:
             self._newest.wait()
 

@@ -1,7 +1,5 @@
 """Ends a process that does not end normally."""
 
-from __future__ import annotations
-
 import os
 import queue
 import threading

@@ -1,7 +1,5 @@
 """The figures of a program as text for Prometheus, by the package prometheus-client."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field

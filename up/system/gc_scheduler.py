@@ -5,8 +5,6 @@ start are frozen, the automatic collector is off, and young garbage is collected
 between two turns of the reactor; bus and codecs create no cycles, so there is little of it.
 """
 
-from __future__ import annotations
-
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager

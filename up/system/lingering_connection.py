@@ -1,7 +1,5 @@
 """A connection that is closed without losing the answer."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.protocols.policies import ProtocolWrapper

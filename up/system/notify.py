@@ -21,7 +21,6 @@ class Notifier:
 
     @classmethod
     def from_environment(cls, environ: Mapping[str, str] = os.environ) -> "Notifier":
-        """Return the notifier for NOTIFY_SOCKET."""
         return cls(environ.get("NOTIFY_SOCKET"))
 
     def ready(self, status: str = "") -> bool:

@@ -1,7 +1,5 @@
 """Decides which peers may use the plain, unauthenticated protocol."""
 
-from __future__ import annotations
-
 from twisted.logger import Logger
 
 from up.system.addresses import is_private, is_wildcard

@@ -1,7 +1,5 @@
 """The PID file of a running program, and the signals that it ignores."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import signal

@@ -5,8 +5,6 @@ Twisted imports ``http.cookiejar`` for its web client, and with it ``urllib.requ
 here uses them.
 """
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 from types import ModuleType

@@ -1,7 +1,5 @@
 """Reports the module or handler that blocks the event loop for too long."""
 
-from __future__ import annotations
-
 import signal
 import sys
 import threading
@@ -128,7 +126,6 @@ def blocking_call_in(frame: FrameType | None, owners: tuple[type, ...]) -> tuple
 
 
 def _function_in(innermost: FrameType | None) -> str:
-    """Return the innermost function outside Python and Twisted."""
     frame = innermost
     while frame is not None:
         name = frame.f_globals.get("__name__", "?")

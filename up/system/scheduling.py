@@ -1,7 +1,5 @@
 """Real-time priority, where the system permits it."""
 
-from __future__ import annotations
-
 import os
 
 from twisted.logger import Logger

@@ -1,7 +1,5 @@
 """Wakes the reactor on a signal, wherever the process was when it arrived."""
 
-from __future__ import annotations
-
 import signal
 import socket
 from typing import Any

@@ -1,7 +1,5 @@
 """Limits the events of a link: a burst, and a long-term rate."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 

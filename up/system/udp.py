@@ -1,7 +1,5 @@
 """Opens UDP ports without leaking sockets."""
 
-from __future__ import annotations
-
 import socket
 from typing import Any
 

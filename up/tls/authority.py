@@ -1,7 +1,5 @@
 """A small private certificate authority in a folder."""
 
-from __future__ import annotations
-
 import datetime as dt
 import re
 from collections.abc import Iterable, Sequence

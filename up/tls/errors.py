@@ -1,7 +1,5 @@
 """Why a TLS connection failed: a code and one sentence."""
 
-from __future__ import annotations
-
 import ssl
 
 from up.errors import UserError

@@ -1,7 +1,5 @@
 """The folder with a device's certificate, and the TLS contexts that it makes."""
 
-from __future__ import annotations
-
 import base64
 import ssl
 import time

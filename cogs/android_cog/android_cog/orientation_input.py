@@ -1,7 +1,5 @@
 """The phone's orientation, from one source at a time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict
 

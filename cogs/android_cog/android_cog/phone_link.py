@@ -1,7 +1,5 @@
 """The phone's General Messages, over TCP or UDP, from one phone at a time."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from contextlib import suppress
@@ -109,12 +107,7 @@ class PhoneLink:
         """Send in place of an older waiting message."""
         return self._owner is not None and self._owner.send_newest(message)
 
-    def is_stream(self, link: GeneralMessageLink) -> bool:
-        """Return whether a link is a TCP connection."""
-        return link is not self.datagrams
-
     def build(self) -> GeneralMessageProtocol:
-        """Return the protocol of a new TCP connection."""
         return GeneralMessageProtocol(self._clock, **self._callbacks)
 
     async def close(self) -> None:

@@ -1,7 +1,5 @@
 """Forwards Commands to the phone and its answers back to the sender."""
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from uuid import uuid4
 

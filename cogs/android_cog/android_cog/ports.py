@@ -1,7 +1,5 @@
 """Opens a TCP port and the UDP port of the same number."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import maybeDeferred

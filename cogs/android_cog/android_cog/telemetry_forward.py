@@ -1,7 +1,5 @@
 """Telemetry for the phone, at a low rate, always the newest frame."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from up.commands.telemetry_commands import TelemetryCommand

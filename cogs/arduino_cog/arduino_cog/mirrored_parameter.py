@@ -1,7 +1,5 @@
 """A value stored on the Arduino, its gains or its profile: read, sent, read back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Generic, Protocol, TypeVar
 

@@ -1,7 +1,5 @@
 """Sends a value on change, at a limited rate."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from up.system.clock import Clock, Timer

@@ -1,7 +1,5 @@
 """The registration of the cog."""
 
-from __future__ import annotations
-
 from up.cogs.up_registrant import UpRegistrant
 from up.flight_controller.pids_file import PIDS
 from up.flight_controller.profile_wire import AIRFRAME

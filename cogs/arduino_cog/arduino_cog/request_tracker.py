@@ -1,7 +1,5 @@
 """Matches requests to the Arduino with their answers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import field
 

@@ -1,7 +1,5 @@
 """The payloads of the serial line as values, both directions (docs/protocols.md 2.3 and 2.4)."""
 
-from __future__ import annotations
-
 import math
 from struct import Struct
 

@@ -1,7 +1,5 @@
 """All calls of the recorder to the operating system; each of them may block."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 from pathlib import Path
@@ -42,7 +40,6 @@ class Disk:
         folder.mkdir(parents=True, exist_ok=True)
 
     def open_folder(self, folder: Path) -> int:
-        """Open a folder, to sync or lock it."""
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
 
     def sync_folder(self, folder: Path) -> None:

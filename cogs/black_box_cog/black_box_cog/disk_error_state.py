@@ -1,7 +1,5 @@
 """The reason why the flight is not recorded: logged once per kind, and shown in telemetry."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from twisted.logger import Logger

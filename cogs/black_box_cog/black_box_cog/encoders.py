@@ -4,8 +4,6 @@ A Command with numeric fields is written through a template for the types of its
 a JSON encoder's time. Numbers have twelve significant digits.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Sequence
 from math import isfinite
@@ -53,7 +51,6 @@ class OriginTexts:
         self._texts: dict[int, tuple[Origin, str]] = {}
 
     def ended(self, text: str, origin: Origin) -> bytes:
-        """Return a JSON object with its origin added."""
         known = self._texts.get(id(origin))
         if known is None:
             if len(self._texts) >= _ORIGINS_LIMIT:

@@ -1,7 +1,5 @@
 """The folder of the flights: numbers new ones and frees space."""
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import os

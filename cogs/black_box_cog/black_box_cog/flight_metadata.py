@@ -1,7 +1,5 @@
 """The metadata of a flight, known before it begins: aircraft, program, versions, configuration."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping

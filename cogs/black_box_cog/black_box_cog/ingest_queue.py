@@ -1,7 +1,5 @@
 """The program's side of the recorder: it only appends to a queue, and reads the status."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections import deque
@@ -157,7 +155,6 @@ class LogForwarder:
         globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
     def __call__(self, event: LogEvent) -> None:
-        """Forward one event, formatted immediately."""
         level = level_of(event)
         if level >= LogLevel.info:
             fields = fields_of(event) if "code" in event else {}

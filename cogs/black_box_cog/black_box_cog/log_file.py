@@ -1,7 +1,5 @@
 """A file that accepts whole records or none."""
 
-from __future__ import annotations
-
 import contextlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """One file of a flight: its head, and every entry on its topic."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator

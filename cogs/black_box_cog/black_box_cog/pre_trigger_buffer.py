@@ -1,7 +1,5 @@
 """Entries from before a flight, or from a time without a file, kept for the next file."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Iterable
 

@@ -1,7 +1,5 @@
 """Decides which objects get a topic in the log, and how many marks it takes."""
 
-from __future__ import annotations
-
 from black_box_cog.commands.black_box_commands import RecordCommand
 from black_box_cog.encoders import json_of
 from black_box_cog.ingest_queue import Recorded

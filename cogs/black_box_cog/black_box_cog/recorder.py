@@ -1,7 +1,5 @@
 """The recorder: takes entries, writes them, limits the disk use; all on one thread."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import replace

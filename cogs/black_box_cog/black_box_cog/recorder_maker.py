@@ -1,7 +1,5 @@
 """Creates the recorder on its own thread, and prepares its data in advance."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -14,7 +12,7 @@ from black_box_cog.ingest_queue import IngestQueue
 from black_box_cog.log_segment import form_of
 from black_box_cog.recorder import Recorder
 from up.commands.command_registry import CommandRegistry
-from up.flight_log.flights_folder import folder_of
+from up.flight_log.flight_file import folder_of
 
 
 def make_recorder(
@@ -63,7 +61,6 @@ def _metadata(up: Any, context: Any) -> FlightMetadata:
 
 
 def _aircraft(up: Any, context: Any) -> str:
-    """Return the aircraft's name on the ground."""
     provider = up.mission_control_provider
     config = None if provider is None or provider.CONFIG is None else provider.config
     return getattr(config, "aircraft", "") or context.instance or "default"

@@ -1,7 +1,5 @@
 """Creates the files of a flight, one after the other."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Callable, Sequence
 

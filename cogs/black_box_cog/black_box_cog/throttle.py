@@ -1,7 +1,5 @@
 """Releases the interpreter regularly, so that control never waits long for the recorder."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable
 
@@ -32,8 +30,4 @@ class CooperativeThrottle:
 
     def disable(self) -> None:
         """Stop pausing: the program is ending."""
-        self._pause = _no_pause
-
-
-def _no_pause(seconds: float) -> None:
-    """Return without a pause."""
+        self._pause = lambda _: None

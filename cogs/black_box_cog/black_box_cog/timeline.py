@@ -1,7 +1,5 @@
 """The time of a log: the wall clock at its start, and monotonic seconds since."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

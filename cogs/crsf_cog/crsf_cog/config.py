@@ -1,7 +1,5 @@
 """crsf.yml: the receiver on a UART of the Raspberry Pi."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from up.config import ConfigFile, items, key

@@ -50,7 +50,6 @@ class CrsfDecoder:
         self._tail = b""
 
     def reset(self) -> None:
-        """Discard a partial frame."""
         self._tail = b""
 
     def feed(self, data: bytes) -> list[tuple[int, bytes]]:

@@ -1,7 +1,5 @@
 """The channel on which the pilot selects flight modes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 STEADY_S = 0.3

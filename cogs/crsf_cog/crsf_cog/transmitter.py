@@ -1,7 +1,5 @@
 """Telemetry as frames for the pilot's transmitter."""
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Callable

@@ -15,6 +15,8 @@ from up.system.token_bucket import TokenBucket
 
 MAX_REQUEST_BYTES = 512
 MAX_ANSWERS_HZ = 256.0
+SENDER_ANSWERS_HZ = 10
+MAX_SENDERS = 256
 
 
 class Answerer(DatagramProtocol):
@@ -60,16 +62,14 @@ class Answerer(DatagramProtocol):
 
 
 class RateLimit:
-    """Permits ``per_second`` answers per second to each sender; remembers ``senders`` at most.
+    """Permits ``SENDER_ANSWERS_HZ`` to each sender; remembers ``MAX_SENDERS`` at most.
 
     All senders together get `MAX_ANSWERS_HZ`: a flood of forged addresses costs bounded memory and
     bounded traffic.
     """
 
-    def __init__(self, clock: Clock, per_second: int = 10, senders: int = 256) -> None:
+    def __init__(self, clock: Clock) -> None:
         self._clock = clock
-        self._per_second = per_second
-        self._senders = senders
         self._all = TokenBucket(clock, MAX_ANSWERS_HZ, MAX_ANSWERS_HZ)
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
 
@@ -80,9 +80,9 @@ class RateLimit:
         """Count a request and return whether it may be answered."""
         bucket = self._buckets.pop(sender, None)
         if bucket is None:
-            bucket = TokenBucket(self._clock, self._per_second, self._per_second)
+            bucket = TokenBucket(self._clock, SENDER_ANSWERS_HZ, SENDER_ANSWERS_HZ)
         self._buckets[sender] = bucket
-        if len(self._buckets) > self._senders:
+        if len(self._buckets) > MAX_SENDERS:
             self._buckets.popitem(last=False)
         return bucket.take() and self._all.take()
 

@@ -1,7 +1,5 @@
 """discovery.yml."""
 
-from __future__ import annotations
-
 from up.config import ConfigFile, key
 from up.quick_dataclass import dataclass
 

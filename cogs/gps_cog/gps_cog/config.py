@@ -1,7 +1,5 @@
 """gps.yml: the satellite receivers aboard."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from up.commands.origin import link_name_problem

@@ -1,7 +1,5 @@
 """A fix as a receiver reports it."""
 
-from __future__ import annotations
-
 import math
 
 from up.commands.command import InvalidCommandError

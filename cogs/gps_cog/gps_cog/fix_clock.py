@@ -1,7 +1,5 @@
 """The time of fixes by the clock of this program."""
 
-from __future__ import annotations
-
 import math
 
 from up.quick_dataclass import dataclass

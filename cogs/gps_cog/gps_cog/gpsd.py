@@ -1,7 +1,5 @@
 """The protocol of gpsd: JSON reports, one per line."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter
@@ -37,7 +35,6 @@ class GpsdDecoder:
 
     @property
     def watch(self) -> bytes:
-        """Return the request for reports."""
         wanted = {"enable": True, "json": True} | ({"device": self._device} if self._device else {})
         return b"?WATCH=" + json.dumps(wanted).encode() + b";\n"
 

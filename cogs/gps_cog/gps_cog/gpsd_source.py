@@ -1,7 +1,5 @@
 """The connection to gpsd."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.application.internet import ClientService, backoffPolicy

@@ -1,7 +1,5 @@
 """NMEA 0183: the sentences GGA, RMC, GSA and GST of one receiver make fixes."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterator
@@ -50,7 +48,6 @@ class NmeaDecoder:
         self._lines = LineDecoder(MAX_LINE_BYTES)
 
     def feed(self, data: bytes) -> Iterator[GpsFix]:
-        """Yield the fixes that the bytes complete."""
         before = self._lines.dropped_too_long
         lines = self._lines.feed(data)
         self.counters["noise"] += self._lines.dropped_too_long - before

@@ -1,7 +1,5 @@
 """One receiver: which of its fixes are published, and as how old."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Protocol
@@ -66,7 +64,6 @@ class Receiver:
         }  # fmt: skip
 
     def on_bytes(self, data: bytes) -> None:
-        """Take bytes that arrive now."""
         for fix in self.decoder.feed(data):
             self._newest, self._newest_s = fix, self._seconds()
             self._counters[self._judge(fix)] += 1

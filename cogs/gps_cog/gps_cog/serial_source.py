@@ -1,7 +1,5 @@
 """A receiver on a serial port, at whatever speed it was left."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -67,7 +65,6 @@ class SerialSource:
 
     @property
     def baud_rate(self) -> int:
-        """Return the speed of the present attempt."""
         if not self._decoder.set_up:
             return self._speeds[self._attempt % len(self._speeds)]
         if self._is_at_configured:

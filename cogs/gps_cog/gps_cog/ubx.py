@@ -1,7 +1,5 @@
 """UBX, the protocol of u-blox receivers: NAV-PVT makes fixes, and the set-up asks for it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
@@ -36,7 +34,6 @@ class UbxDecoder:
         self._buffer.clear()
 
     def feed(self, data: bytes) -> Iterator[GpsFix]:
-        """Yield the fixes that the bytes complete."""
         buffer = self._buffer
         buffer += data
         while True:

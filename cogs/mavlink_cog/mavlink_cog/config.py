@@ -1,7 +1,5 @@
 """mavlink.yml."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Literal
 
@@ -44,7 +42,6 @@ class EndpointConfig:
 
     @property
     def granted(self) -> Role:
-        """Return the role of the endpoint's Commands."""
         if self.role != "auto":
             return Role(self.role)
         return Role.OPERATOR if self.is_safe else Role.OBSERVER

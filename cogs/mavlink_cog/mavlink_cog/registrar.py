@@ -1,7 +1,5 @@
 """Registers the cog with an application (thesis 4.3.2)."""
 
-from __future__ import annotations
-
 from mavlink_cog.config import MAVLINK
 from up.cogs.up_registrant import UpRegistrant
 

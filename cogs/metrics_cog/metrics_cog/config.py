@@ -1,7 +1,5 @@
 """metrics.yml."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from up.config import ConfigFile, key

@@ -1,7 +1,5 @@
 """Who did what: the outcome of every Command from the ground, as lines of JSON."""
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Set
@@ -42,7 +40,6 @@ class AuditLog:
         self._disk.run(self._file.open).addCallbacks(self._write, self._on_failed)
 
     def on_answered(self, command: CommandAnsweredCommand) -> None:
-        """Write one outcome."""
         if not self._is_open or command.link not in self._links:
             return
         if not command.key and not self._strangers.take():

@@ -1,7 +1,5 @@
 """mission_control.yml."""
 
-from __future__ import annotations
-
 import re
 import socket
 from collections.abc import Iterator

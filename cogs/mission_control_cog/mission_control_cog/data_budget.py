@@ -1,7 +1,5 @@
 """What the uplink costs, and how often and how much it may send."""
 
-from __future__ import annotations
-
 from collections import deque
 
 WINDOW_S = 60.0

@@ -1,7 +1,5 @@
 """The ground stations connected to the aircraft itself, and the one that has control."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from random import Random, SystemRandom
 from typing import Any

@@ -1,7 +1,5 @@
 """The addresses of a configured host."""
 
-from __future__ import annotations
-
 import socket
 import threading
 from collections.abc import Callable

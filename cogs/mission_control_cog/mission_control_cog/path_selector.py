@@ -1,7 +1,5 @@
 """Which of several paths to the proxy carries the link."""
 
-from __future__ import annotations
-
 from math import inf
 
 from up.quick_dataclass import dataclass
@@ -56,7 +54,6 @@ class PathSelector:
         self._paths[path].answered_s = now_s
 
     def failed(self, path: int, now_s: float) -> None:
-        """Note that a probe or an attempt failed."""
         self._paths[path].failed_s = now_s
         self._paths[path].healthy_since_s = inf
 

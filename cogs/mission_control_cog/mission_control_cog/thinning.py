@@ -1,7 +1,5 @@
 """Telemetry as the uplink sends it: no digit and no change that a ground could not use."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -151,7 +149,6 @@ def _pulse(value: Any) -> Any:
 
 
 def _without_zeros(counters: Mapping[str, Any]) -> Tree:
-    """Return the counters that have counted."""
     parts = {
         part: {name: count for name, count in counts.items() if count}
         for part, counts in counters.items()

@@ -1,7 +1,5 @@
 """Decides when the ground may set gains."""
 
-from __future__ import annotations
-
 from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand

@@ -1,7 +1,5 @@
 """The link to the proxy, which reconnects without limit."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

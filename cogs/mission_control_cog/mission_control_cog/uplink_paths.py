@@ -1,7 +1,5 @@
 """Several network interfaces for the link to the proxy: health, failover, return."""
 
-from __future__ import annotations
-
 import errno
 import socket
 from collections.abc import Callable, Sequence
@@ -125,7 +123,6 @@ class UplinkPaths:
         return OnInterface(self._reactor, self._names[path]), limit_s
 
     def failed(self) -> None:
-        """Note that the attempt failed."""
         self._is_leaving = False
         self._selector.failed(self._attempted, self._reactor.seconds())
 
@@ -135,7 +132,6 @@ class UplinkPaths:
         self._selector.carries(self._attempted, self._reactor.seconds())
 
     def ended(self) -> None:
-        """Note that the link has ended."""
         self._transport = None
         if not self._is_leaving:
             self._selector.lost(self._reactor.seconds())

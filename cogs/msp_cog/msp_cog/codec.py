@@ -1,7 +1,5 @@
 """The frames of MSP version 1: ``$M``, direction, size, type, payload, checksum."""
 
-from __future__ import annotations
-
 from functools import reduce
 from operator import xor
 
@@ -40,7 +38,6 @@ class MspDecoder:
         self._buffer = b""
 
     def reset(self) -> None:
-        """Forget an unfinished frame."""
         self._buffer = b""
 
     def feed(self, data: bytes) -> list[tuple[int, bytes]]:

@@ -1,7 +1,5 @@
 """msp.yml: the line to a Betaflight board."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from msp_cog.line_opener import SOCKET, socket_problem

@@ -4,8 +4,6 @@ The format is Betaflight's (betaflight.com/docs/development/API/DisplayPort): me
 board, whose first byte is one of five operations.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping
 

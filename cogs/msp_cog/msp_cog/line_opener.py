@@ -1,7 +1,5 @@
 """Opens the line to the board: a serial port, or a TCP socket."""
 
-from __future__ import annotations
-
 import ipaddress
 import socket
 

@@ -3,8 +3,6 @@
 Each reader raises ``struct.error`` or ``ValueError`` for a payload that is too short.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping, Sequence
 
@@ -66,7 +64,6 @@ class Status:
 
     @property
     def reasons(self) -> list[str]:
-        """Return the reasons against arming as words."""
         return [name for bit, name in enumerate(ARMING_DISABLED) if self.arming_disabled >> bit & 1]
 
 

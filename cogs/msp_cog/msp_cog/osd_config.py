@@ -1,7 +1,5 @@
 """osd.yml: the text on the pilot's goggles."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import fields
@@ -80,7 +78,6 @@ class OsdConfig:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Return columns and rows."""
         columns, rows = self.grid.split("x")
         return int(columns), int(rows)
 

@@ -1,7 +1,5 @@
 """The characters on the goggles: those that were sent, and those that differ."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 
 from msp_cog.displayport import MAX_TEXT, write
@@ -21,7 +19,6 @@ class OsdScreen:
         self.forget()
 
     def put(self, row: int, column: int, text: str) -> None:
-        """Write a text that fits into its row."""
         self._shown[row][column : column + len(text)] = text
 
     def put_all(self, places: Mapping[str, tuple[int, int]], text: Callable[[str], str]) -> None:

@@ -1,7 +1,5 @@
 """Telemetry as the texts of the OSD's elements."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 
@@ -100,7 +98,6 @@ class OsdTexts:
         return f"BAT {shown}V"
 
     def _warning(self) -> str:
-        """Return one of the warnings, or nothing."""
         if self._is_stale():
             return "NO DATA"
         warnings = list(dict.fromkeys(self._warnings()))

@@ -1,7 +1,5 @@
 """Which requests are due, and how many answers are missing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from msp_cog import messages
@@ -38,7 +36,6 @@ class Poller:
         self._owed = 0
 
     def due(self) -> Sequence[int]:
-        """Return the requests of this tick."""
         if self._owed > MAX_WAITING_TICKS * (len(EVERY_TICK) + 1):
             self.skipped += 1
             return ()

@@ -1,7 +1,5 @@
 """The registration of the cog."""
 
-from __future__ import annotations
-
 from msp_cog.config import MSP
 from msp_cog.osd_config import OSD
 from up.cogs.up_registrant import UpRegistrant

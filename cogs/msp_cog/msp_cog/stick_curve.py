@@ -1,7 +1,5 @@
 """From an angle to the stick that demands it in the board's ANGLE mode."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from up.quick_dataclass import dataclass

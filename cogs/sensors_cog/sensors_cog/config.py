@@ -1,7 +1,5 @@
 """sensors.yml: the sensors at the I2C bus."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

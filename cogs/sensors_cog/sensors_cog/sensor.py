@@ -1,7 +1,5 @@
 """The base of the sensors at the I2C bus."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 from smbus2 import i2c_msg

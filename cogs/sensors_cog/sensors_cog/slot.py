@@ -1,7 +1,5 @@
 """One sensor of sensors.yml: absent, another chip, or working."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """arduino.yml: the serial line."""
 
-from __future__ import annotations
-
 from up.config import ConfigFile, key
 from up.protocols.framing import FRAMINGS
 from up.quick_dataclass import dataclass

@@ -1,7 +1,5 @@
 """The handlers of each frame type."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 from up.protocols.frame import MAX_PAYLOAD

@@ -1,7 +1,5 @@
 """The registration of the cog."""
 
-from __future__ import annotations
-
 from serial_cog.config import ARDUINO
 from up.cogs.up_registrant import UpRegistrant
 

@@ -1,5 +1,3 @@
-"""The phone's battery."""
-
 import pytest
 from android_cog.commands.android_commands import (
     AndroidBatteryCommand,

@@ -7,7 +7,7 @@ from twisted.internet.task import Clock
 
 from tests.cogs.android_cog.flight import Flight
 from tests.cogs.peers import Peer, UdpPeer
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from tests.support.transport import Transport
 from tests.up.commands.samples import Log
 from up.commands.location_command import LocationCommand
@@ -39,70 +39,61 @@ def latitudes(flight):
     return [command.latitude_deg for command in flight.heard]
 
 
-def test_a_second_phone_is_refused_named_and_shown(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            f.listen_to(LocationCommand)
-            owner = await f.phone()
-            owner.say(place(1, "aa01.1"))
-            await owner.answer("aa01.1")
-            # Of the same host, as a second simulator; of another host with an id; without one.
-            for host, id_ in (("127.0.0.1", "bb02.1"), ("127.0.0.2", "cc03.1"), ("127.0.0.3", 7)):
-                other = await phone_at(f, host)
-                with Log() as log:
-                    other.say(place(50, id_), place(51))
-                    answer = (await other.answer(str(id_)))["data"]
-                    await other.closed
-                assert answer["code"] == "taken"
-                assert f"127.0.0.1:{owner.transport.getHost().port}" in answer["reason"]
-                assert f.telemetry["android"]["competitor"] == host
-                codes = [each["code"] for each in log.events if "code" in each]
-                assert codes in (["phone_rejected"], [])
-            owner.say(place(2, "aa01.2"))
-            await owner.answer("aa01.2")
-            assert latitudes(f) == [1, 2]
-            assert f.telemetry["counters"]["android"]["rejected"] == 3
-
-    run_in_reactor(flight)
+async def test_a_second_phone_is_refused_named_and_shown(tmp_path):
+    async with Flight(tmp_path) as f:
+        f.listen_to(LocationCommand)
+        owner = await f.phone()
+        owner.say(place(1, "aa01.1"))
+        await owner.answer("aa01.1")
+        # Of the same host, as a second simulator; of another host with an id; without one.
+        for host, id_ in (("127.0.0.1", "bb02.1"), ("127.0.0.2", "cc03.1"), ("127.0.0.3", 7)):
+            other = await phone_at(f, host)
+            with Log() as log:
+                other.say(place(50, id_), place(51))
+                answer = (await other.answer(str(id_)))["data"]
+                await other.closed
+            assert answer["code"] == "taken"
+            assert f"127.0.0.1:{owner.transport.getHost().port}" in answer["reason"]
+            assert f.telemetry["android"]["competitor"] == host
+            codes = [each["code"] for each in log.events if "code" in each]
+            assert codes in (["phone_rejected"], [])
+        owner.say(place(2, "aa01.2"))
+        await owner.answer("aa01.2")
+        assert latitudes(f) == [1, 2]
+        assert f.telemetry["counters"]["android"]["rejected"] == 3
 
 
-def test_the_same_phone_from_another_network_replaces_its_connection(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            f.listen_to(LocationCommand)
-            old = await f.phone()
-            old.say(place(1, "aa01.1"))
-            await old.answer("aa01.1")
-            new = await phone_at(f, "127.0.0.2")
-            new.say(place(2, "aa01.2"))
-            await new.answer("aa01.2")
-            await old.closed
-            assert latitudes(f) == [1, 2]
-            assert f.telemetry["counters"]["android"]["rejected"] == 0
-
-    run_in_reactor(flight)
+async def test_the_same_phone_from_another_network_replaces_its_connection(tmp_path):
+    async with Flight(tmp_path) as f:
+        f.listen_to(LocationCommand)
+        old = await f.phone()
+        old.say(place(1, "aa01.1"))
+        await old.answer("aa01.1")
+        new = await phone_at(f, "127.0.0.2")
+        new.say(place(2, "aa01.2"))
+        await new.answer("aa01.2")
+        await old.closed
+        assert latitudes(f) == [1, 2]
+        assert f.telemetry["counters"]["android"]["rejected"] == 0
 
 
-def test_a_legacy_phone_is_known_by_its_host(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            f.listen_to(LocationCommand)
-            old = await f.phone()
-            old.say(place(1, "id"))
-            await old.answer("id")
-            other = await phone_at(f, "127.0.0.2")
-            other.say(place(50, "id"))
-            await other.closed
-            new = await f.phone()
-            new.say(place(2, "new"))
-            await new.answer("new")
-            await old.closed
-            assert latitudes(f) == [1, 2]
-
-    run_in_reactor(flight)
+async def test_a_legacy_phone_is_known_by_its_host(tmp_path):
+    async with Flight(tmp_path) as f:
+        f.listen_to(LocationCommand)
+        old = await f.phone()
+        old.say(place(1, "id"))
+        await old.answer("id")
+        other = await phone_at(f, "127.0.0.2")
+        other.say(place(50, "id"))
+        await other.closed
+        new = await f.phone()
+        new.say(place(2, "new"))
+        await new.answer("new")
+        await old.closed
+        assert latitudes(f) == [1, 2]
 
 
-def test_a_strangers_lines_cost_one_short_decoding(tmp_path, monkeypatch):
+async def test_a_strangers_lines_cost_one_short_decoding(tmp_path, monkeypatch):
     """A line that breaks a rule at its end costs 20 ms; ten of them stopped the control loop."""
     decoded = []
     strict = general_message_link.decode
@@ -111,63 +102,54 @@ def test_a_strangers_lines_cost_one_short_decoding(tmp_path, monkeypatch):
         decoded.append(min(len(line), longest))
         return strict(line, longest)
 
-    async def flight():
-        async with Flight(tmp_path) as f:
-            owner = await f.phone()
-            owner.say(place(1, "aa01.1"))
-            await owner.answer("aa01.1")
-            monkeypatch.setattr(general_message_link, "decode", counting)
-            hostile = b'{"name":"u","data":{"x":[' + b"{}," * 5000 + b'{"a":1,"a":2}]}}\n'
-            other = await phone_at(f, "127.0.0.2")
-            other.transport.write(hostile * 4)
-            await other.closed
-            assert decoded == [MAX_UNDECIDED_LINE]
-            # The owner's own lines may be long.
-            owner.transport.write(hostile)
-            owner.say(place(2, "aa01.2"))
-            await owner.answer("aa01.2")
-            assert f.telemetry["counters"]["android"]["rejected"] == 1
-
-    run_in_reactor(flight)
+    async with Flight(tmp_path) as f:
+        owner = await f.phone()
+        owner.say(place(1, "aa01.1"))
+        await owner.answer("aa01.1")
+        monkeypatch.setattr(general_message_link, "decode", counting)
+        hostile = b'{"name":"u","data":{"x":[' + b"{}," * 5000 + b'{"a":1,"a":2}]}}\n'
+        other = await phone_at(f, "127.0.0.2")
+        other.transport.write(hostile * 4)
+        await other.closed
+        assert decoded == [MAX_UNDECIDED_LINE]
+        # The owner's own lines may be long.
+        owner.transport.write(hostile)
+        owner.say(place(2, "aa01.2"))
+        await owner.answer("aa01.2")
+        assert f.telemetry["counters"]["android"]["rejected"] == 1
 
 
-def test_datagrams_of_another_phone_are_dropped_and_counted(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            f.listen_to(LocationCommand, OrientationCommand)
-            owner = await f.phone()
-            owner.say(place(1, "aa01.1"))
-            await owner.answer("aa01.1")
-            other = UdpPeer(reactor, "127.0.0.2")
-            f.peers.append(other)
-            other.say(place(50, "bb02.1"), f.up.ports["general"])
-            other.say(b"\0" * 24, f.up.ports["orientation"])
-            await until(lambda: other.datagrams)
-            assert decode(other.datagrams[0]).data["code"] == "taken"
-            counters = lambda: f.telemetry["counters"]["android"]  # noqa: E731
-            await until(lambda: counters()["orientation_rejected"] == 1)
-            assert counters()["foreign"] == 1
-            gyro = await phone_at(f, "127.0.0.2", "orientation")
-            await gyro.closed
-            mine = await f.gyro()
-            mine.say(b"\0" * 24)
-            await until(lambda: len(f.heard) == 2)
-            assert isinstance(f.heard[1], OrientationCommand)
-
-    run_in_reactor(flight)
+async def test_datagrams_of_another_phone_are_dropped_and_counted(tmp_path):
+    async with Flight(tmp_path) as f:
+        f.listen_to(LocationCommand, OrientationCommand)
+        owner = await f.phone()
+        owner.say(place(1, "aa01.1"))
+        await owner.answer("aa01.1")
+        other = UdpPeer(reactor, "127.0.0.2")
+        f.peers.append(other)
+        other.say(place(50, "bb02.1"), f.up.ports["general"])
+        other.say(b"\0" * 24, f.up.ports["orientation"])
+        await until(lambda: other.datagrams)
+        assert decode(other.datagrams[0]).data["code"] == "taken"
+        counters = lambda: f.telemetry["counters"]["android"]  # noqa: E731
+        await until(lambda: counters()["orientation_rejected"] == 1)
+        assert counters()["foreign"] == 1
+        gyro = await phone_at(f, "127.0.0.2", "orientation")
+        await gyro.closed
+        mine = await f.gyro()
+        mine.say(b"\0" * 24)
+        await until(lambda: len(f.heard) == 2)
+        assert isinstance(f.heard[1], OrientationCommand)
 
 
-def test_orientation_that_came_before_the_phone_of_another_host_ends(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            gyro = await phone_at(f, "127.0.0.2", "orientation")
-            gyro.say(b"\0" * 24)
-            await until(lambda: f.provider._orientation.connected)
-            await f.phone()
-            await gyro.closed
-            await until(lambda: not f.provider._orientation.connected)
-
-    run_in_reactor(flight)
+async def test_orientation_that_came_before_the_phone_of_another_host_ends(tmp_path):
+    async with Flight(tmp_path) as f:
+        gyro = await phone_at(f, "127.0.0.2", "orientation")
+        gyro.say(b"\0" * 24)
+        await until(lambda: f.provider._orientation.connected)
+        await f.phone()
+        await gyro.closed
+        await until(lambda: not f.provider._orientation.connected)
 
 
 class Answers(list):

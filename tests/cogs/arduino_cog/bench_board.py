@@ -1,7 +1,5 @@
 """The compiled firmware on a simulated chip, its serial line a pty, its time at most real time."""
 
-from __future__ import annotations
-
 import os
 import threading
 import time

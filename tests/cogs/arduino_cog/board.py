@@ -1,7 +1,5 @@
 """A small board of the tests' own, written from the protocols page, behind a Rig's port."""
 
-from __future__ import annotations
-
 import struct
 
 from arduino_cog.modules.arduino_airspeed import ArduinoAirspeed

@@ -1,5 +1,3 @@
-"""A board for every test that wants one."""
-
 from itertools import count
 
 import pytest

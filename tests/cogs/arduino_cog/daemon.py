@@ -1,7 +1,5 @@
 """`python main.py` as a process, and a ground station that sends Commands to it."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

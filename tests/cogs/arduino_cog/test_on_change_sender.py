@@ -1,5 +1,3 @@
-"""Sending on change, ten times a second at most."""
-
 from itertools import pairwise
 
 import pytest

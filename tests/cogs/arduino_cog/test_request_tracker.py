@@ -1,5 +1,3 @@
-"""Requests and the answers that belong to them."""
-
 import pytest
 from arduino_cog.request_tracker import RequestTracker
 from twisted.internet.task import Clock

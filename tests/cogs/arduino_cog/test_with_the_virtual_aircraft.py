@@ -14,13 +14,12 @@ from tests.support.firmware import build_firmware
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up, started
 from up.base_started_module import BaseStartedModule
-from up.commands.arming_commands import ArmCommand
 from up.commands.board_schema import Veto
+from up.commands.flight_state_command import ArmCommand, ServoCommand
 from up.commands.origin import INTERNAL
 from up.commands.output_command import SetpointCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import CommandRefusedError
-from up.commands.servo_command import ServoCommand
 from up.flight_controller.pids_file import PIDS
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider  # isort: skip
@@ -143,24 +142,21 @@ def test_two_modules_that_publish_setpoints_do_not_alternate_on_the_servos(tmp_p
         board.end()
 
 
-def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
-    async def fly():
-        plane = fly_aircraft("tests.support.old_firmware", "--boot-text", "DMP init failed")
-        await plane.is_there()
-        up = system(tmp_path, "thesis")
-        life = await started(up)
-        arduino = up.get_module(ArduinoProvider)
-        gains = up.get_module(PIDTuningsProvider)
-        await until(lambda: arduino.servo is not None)
-        await until(lambda: gains.current is not None and gains.current.rate.ailerons.p == 2.25)
-        two_axes = {axis: LOOP[axis] for axis in ("ailerons", "elevator")}
-        command = PIDTuningsCommand(pids={"ratePIDs": two_axes, "stabPIDs": two_axes})
-        assert await ask(up, command) is None
-        assert gains.current.stabilize.elevator.p == 3.25
-        assert "framing: thesis" in await ask(up, ArmCommand())
-        content = up.telemetry_controller.collect()
-        assert content["orientation"]["roll"] is not None
-        assert "rx" not in content
-        await life.stop()
-
-    run_in_reactor(fly)
+async def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
+    plane = fly_aircraft("tests.support.old_firmware", "--boot-text", "DMP init failed")
+    await plane.is_there()
+    up = system(tmp_path, "thesis")
+    life = await started(up)
+    arduino = up.get_module(ArduinoProvider)
+    gains = up.get_module(PIDTuningsProvider)
+    await until(lambda: arduino.servo is not None)
+    await until(lambda: gains.current is not None and gains.current.rate.ailerons.p == 2.25)
+    two_axes = {axis: LOOP[axis] for axis in ("ailerons", "elevator")}
+    command = PIDTuningsCommand(pids={"ratePIDs": two_axes, "stabPIDs": two_axes})
+    assert await ask(up, command) is None
+    assert gains.current.stabilize.elevator.p == 3.25
+    assert "framing: thesis" in await ask(up, ArmCommand())
+    content = up.telemetry_controller.collect()
+    assert content["orientation"]["roll"] is not None
+    assert "rx" not in content
+    await life.stop()

@@ -1,5 +1,3 @@
-"""What holds for the tests of the recorder."""
-
 import pytest
 
 from tests.cogs.black_box_cog.flights import Flight

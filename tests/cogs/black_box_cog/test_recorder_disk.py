@@ -1,5 +1,3 @@
-"""The recorder when the disk fails."""
-
 import errno
 import os
 import shutil

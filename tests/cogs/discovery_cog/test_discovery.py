@@ -1,5 +1,3 @@
-"""The phone finds the Raspberry Pi."""
-
 import socket
 
 import pytest
@@ -10,7 +8,7 @@ from hypothesis import strategies as st
 from twisted.internet.task import Clock
 
 from tests.cogs.peers import UdpPeer
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from tests.support.system import build_up
 from up.life_cycle import LifeCycle
 from up.mode import Mode
@@ -40,54 +38,38 @@ def system(tmp_path, port=0, mode=Mode.AUTO):
                     config={"discovery.yml": f"port: {port}\n"})  # fmt: skip
 
 
-@pytest.mark.parametrize("content", [b"", b"hello", b"\x00\xff", b"x" * 512])
-def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content):
-    async def ask():
-        up = system(tmp_path)
-        life = LifeCycle(up)
-        await life.start()
-        phone = UdpPeer(reactor)
-        phone.say(content, up.ports["discovery"])
-        await until(lambda: phone.datagrams)
-        assert phone.datagrams == [b"127.0.0.1"]
-        await phone.close()
-        await life.stop()
-
-    run_in_reactor(ask)
-
-
-def test_a_broadcast_is_answered(tmp_path):
-    async def ask():
-        up = system(tmp_path)
-        life = LifeCycle(up)
-        await life.start()
-        phone = UdpPeer(reactor, "127.0.0.1")
-        phone.transport.setBroadcastAllowed(True)
-        phone.say(b"where?", up.ports["discovery"], "127.255.255.255")
-        await until(lambda: phone.datagrams)
-        assert phone.datagrams == [b"127.0.0.1"]
-        await phone.close()
-        await life.stop()
-
-    run_in_reactor(ask)
+@pytest.mark.parametrize(
+    ("content", "to"),
+    [
+        *((content, "127.0.0.1") for content in (b"", b"hello", b"\x00\xff", b"x" * 512)),
+        (b"a broadcast", "127.255.255.255"),
+    ],
+)
+async def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content, to):
+    up = system(tmp_path)
+    life = LifeCycle(up)
+    await life.start()
+    phone = UdpPeer(reactor, "127.0.0.1")
+    phone.transport.setBroadcastAllowed(True)
+    phone.say(content, up.ports["discovery"], to)
+    await until(lambda: phone.datagrams)
+    assert phone.datagrams == [b"127.0.0.1"]
+    await phone.close()
+    await life.stop()
 
 
-def test_a_port_in_use_is_a_veto_and_the_system_runs(tmp_path):
+async def test_a_port_in_use_is_a_veto_and_the_system_runs(tmp_path):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("", 0))
         number = taken.getsockname()[1]
-
-        async def boot():
-            up = system(tmp_path, number)
-            life = LifeCycle(up)
-            await life.start()
-            (reason,) = up.vetoes.own.values()
-            assert f"{number}" in reason
-            assert "(discovery.yml: port)" in reason
-            assert life.started
-            await life.stop()
-
-        run_in_reactor(boot)
+        up = system(tmp_path, number)
+        life = LifeCycle(up)
+        await life.start()
+        (reason,) = up.vetoes.own.values()
+        assert f"{number}" in reason
+        assert "(discovery.yml: port)" in reason
+        assert life.started
+        await life.stop()
 
 
 def test_black_box_mode_has_no_discovery(tmp_path):
@@ -116,7 +98,7 @@ def test_another_port_is_the_same_sender():
 
 def test_a_flood_of_senders_costs_bounded_memory():
     clock = Clock()
-    limit = RateLimit(clock, senders=256)
+    limit = RateLimit(clock)
     permitted = sum(limit.permits(f"10.0.{n // 250}.{n % 250}") for n in range(5000))
     assert (permitted, len(limit)) == (256, 256)
     clock.advance(1)

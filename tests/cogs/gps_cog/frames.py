@@ -1,7 +1,5 @@
 """What receivers send: recordings of a simulated flight."""
 
-from __future__ import annotations
-
 import math
 
 from pynmeagps.nmeahelpers import calc_checksum

@@ -1,7 +1,5 @@
 """Receivers on ptys, the provider, the phone, in a test's time."""
 
-from __future__ import annotations
-
 from gps_cog.modules.gps_provider import GpsProvider
 
 from tests.cogs.gps_cog.frames import state_at

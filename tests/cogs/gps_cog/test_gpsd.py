@@ -1,5 +1,3 @@
-"""Reports of gpsd become fixes."""
-
 import json
 
 import pytest

@@ -1,5 +1,3 @@
-"""The daemon's page for Prometheus."""
-
 import socket
 
 import pytest
@@ -10,48 +8,41 @@ from metrics_cog.modules.metrics import Metrics
 from twisted.internet.threads import deferToThread
 from twisted.logger import capturedLogs
 
-from tests.support.reactor import reactor, run_in_reactor
+from tests.support.reactor import reactor
 from tests.support.scrape import scrape
 from tests.support.system import build_up
 from up.config import ConfigErrors
 from up.life_cycle import LifeCycle
 
 
-def test_a_scrape_has_the_numbers_of_telemetry_and_only_on_loopback(tmp_path):
+async def test_a_scrape_has_the_numbers_of_telemetry_and_only_on_loopback(tmp_path):
     files = {"metrics.yml": "port: 0\n", "discovery.yml": "port: 0\n"}
+    up = build_up([Metrics, DiscoveryService], reactor, tmp_path, config=files)
+    life = LifeCycle(up)
+    await life.start()
+    up.get_module(DiscoveryService)._answerer.counters["answered"] = 7
+    read = await deferToThread(scrape, up.ports["metrics"])
+    assert read["up_counters", "answered", "discovery"] == 7
+    assert read["up_telemetry", "system.period_ms"] == 100
+    module = up.get_module(Metrics)
+    assert module._port.getHost().host == "127.0.0.1"
+    await life.stop()
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.1", up.ports["metrics"]))
 
-    async def fly():
-        up = build_up([Metrics, DiscoveryService], reactor, tmp_path, config=files)
+
+async def test_a_port_in_use_does_not_forbid_to_fly(tmp_path):
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        up = build_up([Metrics], reactor, tmp_path, config={"metrics.yml": f"port: {port}\n"})
         life = LifeCycle(up)
-        await life.start()
-        up.get_module(DiscoveryService)._answerer.counters["answered"] = 7
-        read = await deferToThread(scrape, up.ports["metrics"])
-        assert read["up_counters", "answered", "discovery"] == 7
-        assert read["up_telemetry", "system.period_ms"] == 100
-        module = up.get_module(Metrics)
-        assert module._port.getHost().host == "127.0.0.1"
+        with capturedLogs() as events:
+            await life.start()
+        assert "port_unusable" in [each.get("code") for each in events]
+        assert up.vetoes.all == []
         await life.stop()
-        with pytest.raises(ConnectionRefusedError):
-            socket.create_connection(("127.0.0.1", up.ports["metrics"]))
-
-    run_in_reactor(fly)
-
-
-def test_a_port_in_use_does_not_forbid_to_fly(tmp_path):
-    async def fly():
-        with socket.socket() as other:
-            other.bind(("127.0.0.1", 0))
-            other.listen()
-            port = other.getsockname()[1]
-            up = build_up([Metrics], reactor, tmp_path, config={"metrics.yml": f"port: {port}\n"})
-            life = LifeCycle(up)
-            with capturedLogs() as events:
-                await life.start()
-            assert "port_unusable" in [each.get("code") for each in events]
-            assert up.vetoes.all == []
-            await life.stop()
-
-    run_in_reactor(fly)
 
 
 def test_without_a_port_it_is_not_loaded(tmp_path):

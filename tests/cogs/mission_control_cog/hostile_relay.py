@@ -6,8 +6,8 @@ from twisted.internet.protocol import Factory, Protocol
 
 from tests.cogs.mission_control_cog.system import Aircraft
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.commands.arming_commands import ArmCommand
-from up.config.keys_file import KEYS, add_key
+from up.commands.flight_state_command import ArmCommand
+from up.config.keys_file import add_key
 from up.protocols.binary_line import PROTECTED, to_body
 from up.protocols.general_message import encode
 from up.protocols.line_decoder import LineDecoder
@@ -156,9 +156,6 @@ class Scene:
     @property
     def received(self):
         return self.aircraft.up.command_receiver.counters["received"]
-
-    def revoke_file(self):
-        return self.folder / "air" / KEYS.filename
 
     async def settle(self):
         """Wait until the aircraft has taken all that was sent to it: it answers in order."""

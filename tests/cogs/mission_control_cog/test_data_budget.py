@@ -1,5 +1,3 @@
-"""The budget of the uplink, with frames that cost what theirs do."""
-
 from itertools import pairwise
 
 import pytest

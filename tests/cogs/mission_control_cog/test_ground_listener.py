@@ -13,9 +13,9 @@ from twisted.internet.testing import StringTransport
 
 from tests.cogs.mission_control_cog.system import Aircraft, listening
 from tests.cogs.peers import connect
-from tests.support.reactor import reactor, run_in_reactor, until
+from tests.support.reactor import reactor, until
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.arming_commands import ArmCommand
+from up.commands.flight_state_command import ArmCommand
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.life_cycle import LifeCycle
@@ -149,41 +149,34 @@ def test_hostile_stations_are_bounded(tmp_path):
             await peer.close()
 
 
-def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
+async def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         number = taken.getsockname()[1]
-
-        async def boot():
-            text = f"listener: {{port: {number}, address: 127.0.0.1}}\n"
-            a = Aircraft(tmp_path, None, text)
-            life = LifeCycle(a.up)
-            await life.start()
-            (reason,) = a.up.vetoes.own.values()
-            assert f"{number}" in reason
-            assert "(mission_control.yml: listener.port)" in reason
-            assert a.provider.started
-            await life.stop()
-
-        run_in_reactor(boot)
-
-
-def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
-    async def boot():
-        a = Aircraft(tmp_path / "a", None, "listener: {port: 0, address: 203.0.113.1}\n")
+        text = f"listener: {{port: {number}, address: 127.0.0.1}}\n"
+        a = Aircraft(tmp_path, None, text)
         life = LifeCycle(a.up)
         await life.start()
         (reason,) = a.up.vetoes.own.values()
-        assert "(mission_control.yml: listener.address)" in reason
+        assert f"{number}" in reason
+        assert "(mission_control.yml: listener.port)" in reason
+        assert a.provider.started
         await life.stop()
-        async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
-            monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
-            peer = await connect(reactor, b.up.ports["ground"])
-            await peer.closed
-            assert peer.received == b""
 
-    run_in_reactor(boot)
+
+async def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
+    a = Aircraft(tmp_path / "a", None, "listener: {port: 0, address: 203.0.113.1}\n")
+    life = LifeCycle(a.up)
+    await life.start()
+    (reason,) = a.up.vetoes.own.values()
+    assert "(mission_control.yml: listener.address)" in reason
+    await life.stop()
+    async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
+        monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
+        peer = await connect(reactor, b.up.ports["ground"])
+        await peer.closed
+        assert peer.received == b""
 
 
 class Station:

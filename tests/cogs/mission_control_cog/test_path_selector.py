@@ -1,5 +1,3 @@
-"""The selection of a path: only answers and time count."""
-
 from hypothesis import given
 from hypothesis import strategies as st
 from mission_control_cog.path_selector import (

@@ -7,7 +7,7 @@ from tests.cogs.mission_control_cog.test_uplink import accepted
 from tests.cogs.peers import Server
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.up.commands.samples import Log
-from up.commands.arming_commands import ArmCommand
+from up.commands.flight_state_command import ArmCommand
 
 PUBLIC = "mission_control_cog.modules.mission_control_provider.is_private"
 
@@ -51,25 +51,22 @@ def test_only_a_pilot_arms_and_the_refusal_names_the_key(tmp_path, monkeypatch, 
         assert f"({key})" in answer["data"]["reason"]
 
 
-def test_the_role_is_checked_at_every_connection(tmp_path, monkeypatch):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port, "role: pilot\n", security="accept") as a:
-            a.listen_to(ArmCommand)
-            codes = []
-            for index, private in enumerate((False, True, False)):
-                monkeypatch.setattr(PUBLIC, lambda host, private=private: private)
-                peer = await accepted(server, index)
-                (frame, *_) = await until(lambda peer=peer: peer.named("up.telemetry.update"))
-                peer.say({"name": "up.arm", "id": f"a{index}", "beacon": frame["beacon"]})
-                codes.append((await peer.answer(f"a{index}"))["name"])
-                peer.transport.abortConnection()
-            assert codes == ["up.nack", "up.ack", "up.nack"]
-            assert len(a.heard) == 1
-        await server.close()
-
-    run_in_reactor(fly)
+async def test_the_role_is_checked_at_every_connection(tmp_path, monkeypatch):
+    server = Server(reactor)
+    port = await server.open()
+    async with Aircraft(tmp_path, port, "role: pilot\n", security="accept") as a:
+        a.listen_to(ArmCommand)
+        codes = []
+        for index, private in enumerate((False, True, False)):
+            monkeypatch.setattr(PUBLIC, lambda host, private=private: private)
+            peer = await accepted(server, index)
+            (frame, *_) = await until(lambda peer=peer: peer.named("up.telemetry.update"))
+            peer.say({"name": "up.arm", "id": f"a{index}", "beacon": frame["beacon"]})
+            codes.append((await peer.answer(f"a{index}"))["name"])
+            peer.transport.abortConnection()
+        assert codes == ["up.nack", "up.ack", "up.nack"]
+        assert len(a.heard) == 1
+    await server.close()
 
 
 @pytest.mark.parametrize(
@@ -97,16 +94,12 @@ def test_telemetry_reports_the_granted_role(tmp_path, monkeypatch, text, private
     assert run_in_reactor(fly) == {"role": role, "tune_in_flight": True}
 
 
-def test_a_public_link_without_a_paired_device_is_reported(tmp_path, monkeypatch):
+async def test_a_public_link_without_a_paired_device_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr(PUBLIC, lambda host: False)
-
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        with Log() as log:
-            async with Aircraft(tmp_path, port, "role: pilot\n"):
-                await accepted(server)
-                await until(lambda: [e for e in log.events if e.get("code") == "keys_missing"])
-        await server.close()
-
-    run_in_reactor(fly)
+    server = Server(reactor)
+    port = await server.open()
+    with Log() as log:
+        async with Aircraft(tmp_path, port, "role: pilot\n"):
+            await accepted(server)
+            await until(lambda: [e for e in log.events if e.get("code") == "keys_missing"])
+    await server.close()

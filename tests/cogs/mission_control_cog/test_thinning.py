@@ -1,5 +1,3 @@
-"""Telemetry as the uplink sends it."""
-
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mission_control_cog.thinning import SLOW_S, Thinning

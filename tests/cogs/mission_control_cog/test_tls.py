@@ -14,7 +14,7 @@ from tests.cogs.mission_control_cog.test_uplink import accepted
 from tests.cogs.peers import Server, TLSServer, connect
 from tests.support.certificates import Certificates
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.commands.arming_commands import ArmCommand
+from up.commands.flight_state_command import ArmCommand
 from up.tls.files import TLSFiles
 
 
@@ -24,33 +24,29 @@ def settings(port, folder):
     return f"{server}aircraft: glider-1\nrole: pilot\n"
 
 
-def test_a_pilot_on_a_public_address_may_arm_by_tls_and_data_flow(tmp_path, monkeypatch):
+async def test_a_pilot_on_a_public_address_may_arm_by_tls_and_data_flow(tmp_path, monkeypatch):
     own = Certificates(tmp_path)
     own.client()
     monkeypatch.setattr(PUBLIC, lambda host: False)
-
-    async def fly():
-        server = TLSServer(reactor, TLSFiles(own.server()))
-        port = await server.open()
-        folder = os.path.relpath(own.authority.folder / "glider-1", tmp_path)
-        async with Aircraft(tmp_path, None, settings(port, folder)) as a:
-            a.listen_to(ArmCommand)
-            peer = await accepted(server)
-            assert peer.transport.peer_name == "glider-1"
-            (frame, *_) = await until(lambda: peer.named("up.telemetry.update"))
-            peer.say({"name": "up.arm", "id": "a", "beacon": frame["beacon"]})
-            assert (await peer.answer("a"))["name"] == "up.ack"
-            assert len(a.heard) == 1
-            link = a.provider._uplink._link.transport
-            option = link.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT)
-            assert option == 1500
-            # The data budget counts what TLS adds: here the certificates of both sides.
-            assert a.provider._uplink._link.ip_bytes() > 2000 + len(peer.received)
-            peer.transport.abortConnection()
-            await accepted(server, 1)
-        await server.close()
-
-    run_in_reactor(fly)
+    server = TLSServer(reactor, TLSFiles(own.server()))
+    port = await server.open()
+    folder = os.path.relpath(own.authority.folder / "glider-1", tmp_path)
+    async with Aircraft(tmp_path, None, settings(port, folder)) as a:
+        a.listen_to(ArmCommand)
+        peer = await accepted(server)
+        assert peer.transport.peer_name == "glider-1"
+        (frame, *_) = await until(lambda: peer.named("up.telemetry.update"))
+        peer.say({"name": "up.arm", "id": "a", "beacon": frame["beacon"]})
+        assert (await peer.answer("a"))["name"] == "up.ack"
+        assert len(a.heard) == 1
+        link = a.provider._uplink._link.transport
+        option = link.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT)
+        assert option == 1500
+        # The data budget counts what TLS adds: here the certificates of both sides.
+        assert a.provider._uplink._link.ip_bytes() > 2000 + len(peer.received)
+        peer.transport.abortConnection()
+        await accepted(server, 1)
+    await server.close()
 
 
 def test_an_untrusted_or_plain_proxy_gets_no_line_and_the_log_a_code(tmp_path):

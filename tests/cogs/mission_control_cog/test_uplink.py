@@ -6,7 +6,7 @@ from twisted.logger import globalLogPublisher
 
 from tests.cogs.mission_control_cog.system import Aircraft, uplinked
 from tests.cogs.peers import Server
-from tests.support.reactor import reactor, run_in_reactor, sleep, until
+from tests.support.reactor import reactor, sleep, until
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
@@ -62,24 +62,21 @@ def test_the_link_reconnects_with_its_token_and_without_the_partial_line(tmp_pat
         assert a.up.command_receiver.counters["malformed"] == 1
 
 
-def test_an_absent_proxy_does_not_fail_the_start_and_is_found_later(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        await server.close()
-        async with Aircraft(tmp_path, port) as a:
-            assert a.provider.started
-            assert a.up.vetoes.own == {}
-            await sleep(0.5)
-            late = Server(reactor)
-            await late.open(port)
-            peer = await accepted(late)
-            first = await until(lambda: peer.named("up.telemetry.update"))
-            # Messages from before the link are not sent later.
-            assert first[0]["beacon"] > a.up.beacons._first
-            await late.close()
-
-    run_in_reactor(fly)
+async def test_an_absent_proxy_does_not_fail_the_start_and_is_found_later(tmp_path):
+    server = Server(reactor)
+    port = await server.open()
+    await server.close()
+    async with Aircraft(tmp_path, port) as a:
+        assert a.provider.started
+        assert a.up.vetoes.own == {}
+        await sleep(0.5)
+        late = Server(reactor)
+        await late.open(port)
+        peer = await accepted(late)
+        first = await until(lambda: peer.named("up.telemetry.update"))
+        # Messages from before the link are not sent later.
+        assert first[0]["beacon"] > a.up.beacons._first
+        await late.close()
 
 
 def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
@@ -125,25 +122,22 @@ def test_a_refusal_that_does_not_judge_the_token_keeps_it(tmp_path):
         (b"x" * 600 + b"\n", "answer_too_long"),
     ],
 )
-def test_anything_but_an_answer_ends_the_connection(tmp_path, answer, code):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        events = []
-        globalLogPublisher.addObserver(events.append)
-        async with Aircraft(tmp_path, port) as a:
-            peer = await server.peer()
-            await until(lambda: peer.received)
-            peer.say(answer)
-            await peer.closed
-            await accepted(server, 1)
-            await until(lambda: a.provider.connected)
-            assert a.up.command_receiver.counters["received"] == 0
-        globalLogPublisher.removeObserver(events.append)
-        assert code in [event.get("code") for event in events]
-        await server.close()
-
-    run_in_reactor(fly)
+async def test_anything_but_an_answer_ends_the_connection(tmp_path, answer, code):
+    server = Server(reactor)
+    port = await server.open()
+    events = []
+    globalLogPublisher.addObserver(events.append)
+    async with Aircraft(tmp_path, port) as a:
+        peer = await server.peer()
+        await until(lambda: peer.received)
+        peer.say(answer)
+        await peer.closed
+        await accepted(server, 1)
+        await until(lambda: a.provider.connected)
+        assert a.up.command_receiver.counters["received"] == 0
+    globalLogPublisher.removeObserver(events.append)
+    assert code in [event.get("code") for event in events]
+    await server.close()
 
 
 def test_a_legacy_client_sends_no_hello_and_no_empty_lines(tmp_path):
@@ -207,17 +201,14 @@ def test_the_result_of_sending_a_command_to_the_ground(tmp_path):
         }
 
 
-def test_without_a_proxy_the_module_runs(tmp_path):
-    async def fly():
-        async with Aircraft(tmp_path) as a:
-            assert a.provider.started
-            assert not a.provider.connected
-            assert not a.provider.send_command(AltitudeCommand(1))
-
-    run_in_reactor(fly)
+async def test_without_a_proxy_the_module_runs(tmp_path):
+    async with Aircraft(tmp_path) as a:
+        assert a.provider.started
+        assert not a.provider.connected
+        assert not a.provider.send_command(AltitudeCommand(1))
 
 
-def test_stopping_ends_an_attempt_and_a_pause(tmp_path):
+async def test_stopping_ends_an_attempt_and_a_pause(tmp_path):
     def uplink(port):
         quiet = lambda *_: None  # noqa: E731
         return Uplink(
@@ -225,17 +216,14 @@ def test_stopping_ends_an_attempt_and_a_pause(tmp_path):
             on_message=quiet, on_malformed=quiet, on_ready=quiet, on_lost=quiet,
         )  # fmt: skip
 
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        silent = uplink(port)
-        silent.start()
-        await server.peer()
-        await silent.stop()
-        await server.close()
-        refused = uplink(port)
-        refused.start()
-        await sleep(0.2)
-        await refused.stop()
-
-    run_in_reactor(fly)
+    server = Server(reactor)
+    port = await server.open()
+    silent = uplink(port)
+    silent.start()
+    await server.peer()
+    await silent.stop()
+    await server.close()
+    refused = uplink(port)
+    refused.start()
+    await sleep(0.2)
+    await refused.stop()

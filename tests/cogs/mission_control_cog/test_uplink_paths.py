@@ -116,53 +116,46 @@ def test_a_slow_path_and_a_program_that_slept_are_not_silence():
     assert it.left == []
 
 
-def test_a_refused_attempt_keeps_the_link_and_a_lost_link_keeps_the_attempt():
+async def test_a_refused_attempt_keeps_the_link_and_a_lost_link_keeps_the_attempt():
     ready, lost = [], []
-
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        uplink = Uplink(
-            reactor, "127.0.0.1", port, "x", interfaces=("lo", "lo"), return_after_s=10.0,
-            on_message=print, on_malformed=print, on_ready=ready.append,
-            on_lost=lambda: lost.append(1),
-        )  # fmt: skip
-        uplink.start()
-        first = await accepted(server)
-        await until(lambda: ready)
-        uplink._paths.leave("path_silent", "")
-        refused = await server.peer(1)
-        await until(lambda: refused.received)
-        refused.say(b'UP1 error code=token reason="no"\n')
-        await refused.closed
-        assert uplink.is_ready
-        uplink._paths.leave("path_silent", "")
-        second = await server.peer(2)
-        await until(lambda: b"token=" in second.received)
-        first.transport.abortConnection()
-        await until(lambda: lost)
-        assert not uplink.is_ready
-        second.say(OK)
-        await until(lambda: len(ready) == 2)
-        uplink._paths.leave("better_path", "")
-        third = await accepted(server, 3)
-        await second.closed
-        assert (len(ready), len(lost), uplink.is_ready, third.is_open) == (3, 1, True, True)
-        await uplink.stop()
-        await server.close()
-
-    run_in_reactor(fly)
+    server = Server(reactor)
+    port = await server.open()
+    uplink = Uplink(
+        reactor, "127.0.0.1", port, "x", interfaces=("lo", "lo"), return_after_s=10.0,
+        on_message=print, on_malformed=print, on_ready=ready.append,
+        on_lost=lambda: lost.append(1),
+    )  # fmt: skip
+    uplink.start()
+    first = await accepted(server)
+    await until(lambda: ready)
+    uplink._paths.leave("path_silent", "")
+    refused = await server.peer(1)
+    await until(lambda: refused.received)
+    refused.say(b'UP1 error code=token reason="no"\n')
+    await refused.closed
+    assert uplink.is_ready
+    uplink._paths.leave("path_silent", "")
+    second = await server.peer(2)
+    await until(lambda: b"token=" in second.received)
+    first.transport.abortConnection()
+    await until(lambda: lost)
+    assert not uplink.is_ready
+    second.say(OK)
+    await until(lambda: len(ready) == 2)
+    uplink._paths.leave("better_path", "")
+    third = await accepted(server, 3)
+    await second.closed
+    assert (len(ready), len(lost), uplink.is_ready, third.is_open) == (3, 1, True, True)
+    await uplink.stop()
+    await server.close()
 
 
-def test_an_interface_that_is_absent_fails_the_attempt_with_its_name():
-    async def fly():
-        endpoint = TCP4ClientEndpoint(OnInterface(reactor, "absent0"), "127.0.0.1", 9)
-        with pytest.raises(ConnectError) as failed:
-            await endpoint.connect(Factory.forProtocol(Protocol))
-        assert (failed.value.osError, failed.value.code) == (errno.ENODEV, "interface_missing")
-        assert "absent0" in str(failed.value)
-
-    run_in_reactor(fly)
+async def test_an_interface_that_is_absent_fails_the_attempt_with_its_name():
+    endpoint = TCP4ClientEndpoint(OnInterface(reactor, "absent0"), "127.0.0.1", 9)
+    with pytest.raises(ConnectError) as failed:
+        await endpoint.connect(Factory.forProtocol(Protocol))
+    assert (failed.value.osError, failed.value.code) == (errno.ENODEV, "interface_missing")
+    assert "absent0" in str(failed.value)
 
 
 @pytest.mark.parametrize(

@@ -7,13 +7,16 @@ from twisted.logger import capturedLogs
 
 from tests.cogs.msp_cog.recorded import ANGLE, ARMED, OVERRIDE, RECEIVER_FAILSAFE, status
 from tests.cogs.msp_cog.rig import Rig
-from up.commands.arming_commands import ArmCommand
-from up.commands.flight_state_command import FlightBatteryCommand, FlightModeCommand
+from up.commands.flight_state_command import (
+    ArmCommand,
+    FlightBatteryCommand,
+    FlightModeCommand,
+    ServoCommand,
+)
 from up.commands.location_command import LocationCommand
 from up.commands.output_command import SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.rx_command import ALL_VALID, RXCommand
-from up.commands.servo_command import ServoCommand
 
 AUTO = ARMED | ANGLE | OVERRIDE
 SETPOINT = SetpointCommand(20.0, -5.0, throttle_us=1600)
@@ -182,7 +185,7 @@ def test_a_program_that_ends_leaves_arming_to_the_board(tmp_path):
 
 def test_attack_nothing_arms_and_no_mode_is_taken_without_the_switch(rig):
     executor = rig.up.command_executor
-    assert not executor.has_handlers(ArmCommand)
+    assert not executor.handlers_of(ArmCommand)
     (take,) = executor.handlers_of(FlightModeCommand)
     at(rig, ARMED | ANGLE)
     with pytest.raises(CommandRefusedError) as refused:

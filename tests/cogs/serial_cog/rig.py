@@ -1,7 +1,5 @@
 """A serial line whose other end a test controls: a real pty, and time that the test advances."""
 
-from __future__ import annotations
-
 import os
 import select
 import tty

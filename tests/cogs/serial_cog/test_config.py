@@ -1,5 +1,3 @@
-"""arduino.yml."""
-
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,3 @@
-"""Finding an Arduino among the serial ports."""
-
 from types import SimpleNamespace
 
 import pytest
@@ -64,22 +62,17 @@ def test_a_device_that_came_back_under_another_name_is_opened_again():
     assert opened == ["/dev/ttyACM0", "/dev/ttyACM5"]
 
 
-def test_a_configured_port_that_is_renamed_is_found_by_its_id(tmp_path):
+@pytest.mark.parametrize(
+    ("renamed", "then"),
+    [([port("/dev/ttyUSB91", 0x1A86, 0x7523)], "/dev/ttyUSB91"), ([], "/dev/ttyUSB90")],
+)
+def test_a_configured_port_is_found_by_its_id_and_never_exchanged(renamed, then):
     ports = [port("/dev/ttyUSB90", 0x1A86, 0x7523)]
     made, opened = opener(ports, port_name="/dev/ttyUSB90")
     made()
-    ports[:] = [UNO, port("/dev/ttyUSB91", 0x1A86, 0x7523)]
+    ports[:] = [UNO, *renamed]
     made()
-    assert opened == ["/dev/ttyUSB90", "/dev/ttyUSB91"]
-
-
-def test_a_configured_port_is_never_exchanged_for_another_device():
-    ports = [port("/dev/ttyUSB90", 0x1A86, 0x7523)]
-    made, opened = opener(ports, port_name="/dev/ttyUSB90")
-    made()
-    ports[:] = [UNO]
-    made()
-    assert opened == ["/dev/ttyUSB90", "/dev/ttyUSB90"]
+    assert opened == ["/dev/ttyUSB90", then]
     assert not made.has_another()
 
 

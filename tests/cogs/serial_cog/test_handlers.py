@@ -1,5 +1,3 @@
-"""The handler of each type of frame."""
-
 import pytest
 from serial_cog.handlers import HandlerTable, type_byte
 

@@ -1,5 +1,3 @@
-"""Progress along the paths of any flight mode."""
-
 from dataclasses import replace
 
 from raspilot.failsafe.progress import ProgressWatch

@@ -64,19 +64,16 @@ def test_a_throw_starts_the_motor_and_it_climbs_with_level_wings_until_loiter(ha
     assert hand.mode.successor == "LOITER"
 
 
-def test_the_target_gives_another_altitude(hand):
-    hand.given["target"] = Target(Point(0.0, 0.0), 262.0)
-    hand.thrown().step({"altitude_m": 258.0})
+@pytest.mark.parametrize(
+    ("target_m", "climbs_at_m", "turns_at_m"), [(262, 258, 260), (250, 256.5, 257.5)]
+)
+def test_the_target_gives_another_altitude_but_none_near_the_ground(
+    hand, target_m, climbs_at_m, turns_at_m
+):
+    hand.given["target"] = Target(Point(0.0, 0.0), target_m)
+    hand.thrown().step({"altitude_m": climbs_at_m})
     assert hand.mode.successor == ""
-    hand.step({"altitude_m": 260.0})
-    assert hand.mode.successor == "LOITER"
-
-
-def test_it_never_turns_near_the_ground(hand):
-    hand.given["target"] = Target(Point(0.0, 0.0), 250.0)
-    hand.thrown().step({"altitude_m": 256.5})
-    assert hand.mode.successor == ""
-    hand.step({"altitude_m": 257.5})
+    hand.step({"altitude_m": turns_at_m})
     assert hand.mode.successor == "LOITER"
 
 

@@ -1,5 +1,3 @@
-"""The geometry of a fence: sides, distances, legs."""
-
 import math
 from itertools import pairwise
 

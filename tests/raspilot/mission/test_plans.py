@@ -1,5 +1,3 @@
-"""Upload, read back and progress of plans."""
-
 import json
 
 import pytest

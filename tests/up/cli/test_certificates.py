@@ -1,5 +1,3 @@
-"""up certificates: a CA and its devices."""
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What 'up create' writes passes the project's own checks, and its own tests."""
 
-from __future__ import annotations
-
 import os
 import pty
 import subprocess

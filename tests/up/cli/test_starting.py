@@ -1,7 +1,5 @@
 """The user's whole road: a cog from outside, gathered or registered, started and stopped."""
 
-from __future__ import annotations
-
 import selectors
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Environments, an index, and cogs from outside the tree."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``up gather`` in a real virtual environment, with real cogs, from every source."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

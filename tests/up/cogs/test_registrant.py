@@ -1,5 +1,7 @@
 """A Registrant enters its cog's modules and creates configuration; mistakes are one sentence."""
 
+import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -16,16 +18,16 @@ TREE = REPOSITORY / "tests/fixtures/cogs/tree"
 OLD = REPOSITORY / "tests/fixtures/cogs/prototype_cog"
 
 
-class Said(list):
-    """Collects the code and fields of each line."""
-
-    def __call__(self, text, code="", **fields):
-        self.append({"code": code, **fields})
-
-
 @pytest.fixture
 def application(tmp_path):
     return write_application(tmp_path / "application", {})
+
+
+@pytest.fixture
+def said(monkeypatch, capsys):
+    """Return a function that returns the code and fields of each line since its last call."""
+    monkeypatch.setenv("UP_LOG_FORMAT", "json")
+    return lambda: [json.loads(line)["fields"] for line in capsys.readouterr().out.splitlines()]
 
 
 @pytest.fixture
@@ -59,44 +61,43 @@ def cog(tmp_path):
 REGISTRAR = "from up.cogs.up_registrant import UpRegistrant\nclass Registrant(UpRegistrant): pass\n"
 
 
-def test_registering_enters_creates_and_says_so(application, alpha):
-    said = Said()
-    register("alpha_cog", application, "manual", said)
+def test_registering_enters_creates_and_says_so(application, alpha, said):
+    register("alpha_cog", application, "manual")
     entry = Registry(application.root).entries()["alpha_cog"]
     assert [each.path for each in entry.modules] == ["alpha_cog.modules.alpha_module.AlphaModule"]
     assert entry.source == "manual"
     config = application.config_folder / "alpha.yml"
     assert "interval_s: 1.0" in config.read_text()
-    assert said == [
+    assert said() == [
         {"code": "cog_registered", "cog": "alpha_cog", "changed": True},
-        {"code": "created", "cog": "alpha_cog", "path": config},
+        {"code": "created", "cog": "alpha_cog", "path": str(config)},
     ]
     assert "AlphaModule" in [module.class_name for module in plan_of(application).modules]
 
 
-def test_configuration_is_never_overwritten(application, alpha):
+def test_configuration_is_never_overwritten(application, alpha, said):
     config = application.config_folder / "alpha.yml"
     config.parent.mkdir()
     config.write_text("interval_s: 5\n")
-    said = Said()
-    register("alpha_cog", application, "manual", said)
-    register("alpha_cog", application, "manual", said)
+    register("alpha_cog", application, "manual")
+    register("alpha_cog", application, "manual")
     assert config.read_text() == "interval_s: 5\n"
-    assert [each["changed"] for each in said] == [True, False]
+    assert [each["changed"] for each in said()] == [True, False]
 
 
-def test_a_closed_pipe_is_not_a_fault_of_the_cog(application, alpha):
-    def tell(text, *code, **fields):
+def test_a_closed_pipe_is_not_a_fault_of_the_cog(application, alpha, monkeypatch):
+    def write(text):
         raise BrokenPipeError
 
+    monkeypatch.setattr(sys.stdout, "write", write)
     with pytest.raises(BrokenPipeError):
-        register("alpha_cog", application, "manual", tell)
+        register("alpha_cog", application, "manual")
 
 
 def test_unregistering_leaves_the_configuration(application, alpha):
-    register("alpha_cog", application, "manual", Said())
-    assert unregister("alpha_cog", application, Said())
-    assert not unregister("alpha_cog", application, Said())
+    register("alpha_cog", application, "manual")
+    assert unregister("alpha_cog", application)
+    assert not unregister("alpha_cog", application)
     assert Registry(application.root).entries() == {}
     assert (application.config_folder / "alpha.yml").exists()
 
@@ -106,12 +107,14 @@ def test_a_cog_of_the_prototype_registers_loads_and_works(
 ):
     bystander = write_application(tmp_path / "bystander", {})
     monkeypatch.chdir(bystander.root)
-    said = Said()
-    register("prototype_cog", application, "manual", said)
-    register("prototype_cog", application, "manual", said)
-    assert [each["changed"] for each in said] == [True, False]
+    register("prototype_cog", application, "manual")
+    register("prototype_cog", application, "manual")
+    heard = capfd.readouterr().out
+    assert (
+        heard.count("prototype_cog: registered") == heard.count("prototype_cog: is registered") == 1
+    )
     assert (application.config_folder / "prototype.yml").read_text() == "interval: 1\n"
-    assert "recorders" in capfd.readouterr().out
+    assert "recorders" in heard
     assert Registry(bystander.root).entries() == {}, "where it is run from does not matter"
     plan = plan_of(application)
     assert not plan.problems
@@ -124,7 +127,7 @@ def test_modules_of_the_prototype_live_through_all_phases(tmp_path, prototype):
     from prototype_cog.modules.old_switch_module import OldSwitchModule
 
     from up.commands.origin import INTERNAL
-    from up.commands.panic_command import PanicCommand
+    from up.commands.system_commands import PanicCommand
     from up.testing import Bench
 
     bench = Bench(OldClockModule, OldSwitchModule, config_folder=tmp_path)
@@ -172,7 +175,7 @@ def test_a_cog_without_a_name_or_a_registrar_is_one_sentence(application, cog):
 def test_a_broken_registrant_is_one_sentence(application, cog, text, code):
     cog(registrar__py=text, registered_modules__yml="modules: []\n")
     with pytest.raises(CogError) as error:
-        register("odd_cog", application, "manual", Said())
+        register("odd_cog", application, "manual")
     assert error.value.code == code
 
 

@@ -1,5 +1,3 @@
-"""The packaging files of a folder, read without running them."""
-
 import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st

@@ -1,5 +1,3 @@
-"""Publishing from any thread; handlers run on the reactor's."""
-
 import threading
 
 from tests.support.reactor import reactor, run_in_reactor, until

@@ -1,5 +1,3 @@
-"""Gains are taken whole or not at all."""
-
 import json
 import math
 

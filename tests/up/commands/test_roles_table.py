@@ -1,5 +1,3 @@
-"""Every Command and every role."""
-
 import pytest
 from android_cog.commands.android_commands import (
     AndroidBatteryCommand,

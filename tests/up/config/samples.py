@@ -1,7 +1,5 @@
 """A configuration that uses everything that can be declared."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -206,17 +206,14 @@ def test_a_wrong_declaration_is_found_when_the_file_is_declared():
     class Bare:
         a: int = 0
 
-    @dataclass(frozen=True)
-    class Section:
-        inner: Wrong = section(Wrong)
-
     for cls, error in (
         (Wrong, ValueError),
         (WrongList, ValueError),
         (TwoNames, TypeError),
         (Bare, TypeError),
-        (Section, ValueError),
         (NoDataclass, TypeError),
     ):
         with pytest.raises(error):
             ConfigFile("x.yml", cls)
+        with pytest.raises(error):
+            section(cls)

@@ -1,5 +1,3 @@
-"""Gains on the serial line."""
-
 import math
 import struct
 from dataclasses import replace
@@ -13,17 +11,11 @@ from up.flight_controller.gains_wire import pack_gains, read_gains, without_rudd
 GAIN = st.floats(min_value=0, max_value=50, width=32)
 
 
-@given(st.lists(GAIN, min_size=18, max_size=18))
-def test_three_axes_come_back_bit_for_bit(values):
-    payload = struct.pack(">18f", *(abs(each) for each in values))
-    assert pack_gains(read_gains(payload)) == payload
-
-
-@given(st.lists(GAIN, min_size=12, max_size=12))
-def test_two_axes_come_back_bit_for_bit(values):
-    payload = struct.pack(">12f", *(abs(each) for each in values))
+@given(st.lists(GAIN, min_size=18, max_size=18), st.sampled_from([12, 18]))
+def test_the_gains_of_two_or_three_axes_come_back_bit_for_bit(values, size):
+    payload = struct.pack(f">{size}f", *(abs(each) for each in values[:size]))
     gains = read_gains(payload)
-    assert not gains.has_rudder
+    assert gains.has_rudder is (size == 18)
     assert pack_gains(gains) == payload
 
 

@@ -1,5 +1,3 @@
-"""airframe.yml, and its values in the profile."""
-
 import struct
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every Command class of the installation, found as a ground station finds them."""
 
-from __future__ import annotations
-
 import dataclasses
 import importlib
 import pkgutil

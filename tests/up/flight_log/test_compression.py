@@ -1,7 +1,3 @@
-"""zstd of a flight log's chunks."""
-
-from __future__ import annotations
-
 import contextlib
 
 import pytest

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.flight_log.flight_file import FlightFile, flight_files
+from up.flight_log.flight_file import FlightFile, default_folder, flight_files, folder_of
 
 HERE = Path("flights")
 
@@ -63,3 +63,15 @@ def test_files_are_listed_by_number_and_part(tmp_path):
     for name in [*names, "readme.txt", "other.mcap"]:
         (tmp_path / name).touch()
     assert [each.path.name for each in flight_files(tmp_path)] == names[::-1]
+
+
+def test_where_flights_are_kept_by_default(monkeypatch):
+    assert default_folder({"STATE_DIRECTORY": "/var/lib/raspilot:/b"}) == Path(
+        "/var/lib/raspilot/flights"
+    )
+    assert default_folder({"XDG_STATE_HOME": "/x"}) == Path("/x/raspilot/flights")
+    monkeypatch.setenv("HOME", "/home/pilot")
+    for environ in ({}, {"XDG_STATE_HOME": "relative"}, {"STATE_DIRECTORY": ""}):
+        assert default_folder(environ) == Path("/home/pilot/.local/state/raspilot/flights")
+    assert folder_of("~/flown", {}) == Path("/home/pilot/flown")
+    assert folder_of("", {"XDG_STATE_HOME": "/x"}) == Path("/x/raspilot/flights")

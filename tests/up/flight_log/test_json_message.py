@@ -1,5 +1,3 @@
-"""Messages that are decoded together are decoded as each alone."""
-
 import json
 
 from hypothesis import example, given, settings

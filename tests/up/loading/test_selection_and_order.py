@@ -1,5 +1,3 @@
-"""The chosen classes, and their order."""
-
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,3 @@
-"""Waypoint files as Mission Planner and MAVProxy write them."""
-
 import pytest
 
 from tests.up.mission.plans import HOME_ROW, row, rows

@@ -1,7 +1,5 @@
 """The golden vectors and the types that each end expects, for these tests."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,5 +1,3 @@
-"""The control lease of a link."""
-
 import itertools
 from dataclasses import dataclass
 

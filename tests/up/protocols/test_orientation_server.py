@@ -143,25 +143,22 @@ def test_a_flood_of_datagrams_costs_a_bounded_number_of_frames():
     assert server.counters.frames + server.counters.too_many == 30_000
 
 
-def test_datagrams_arrive():
-    async def run():
-        notes = Notes()
-        server = OrientationDatagrams(Clock(), **notes.callbacks)
-        port = reactor.listenUDP(0, server, interface="127.0.0.1")
-        address = ("127.0.0.1", port.getHost().port)
-        try:
-            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
-                client.bind(("127.0.0.1", 0))
-                for datagram in (frame(1)[:23], frame(1) + b"x", b"", BAD, frame(7)):
-                    client.sendto(datagram, address)
-                await until(lambda: notes.rolls)
-                assert notes.rolls == [(7, name(client))]
-                assert server.counters.dropped == 4
-        finally:
-            await port.stopListening()
-        assert notes.events[-1][:2] == ("lost", notes.rolls[0][1])
-
-    run_in_reactor(run)
+async def test_datagrams_arrive():
+    notes = Notes()
+    server = OrientationDatagrams(Clock(), **notes.callbacks)
+    port = reactor.listenUDP(0, server, interface="127.0.0.1")
+    address = ("127.0.0.1", port.getHost().port)
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
+            client.bind(("127.0.0.1", 0))
+            for datagram in (frame(1)[:23], frame(1) + b"x", b"", BAD, frame(7)):
+                client.sendto(datagram, address)
+            await until(lambda: notes.rolls)
+            assert notes.rolls == [(7, name(client))]
+            assert server.counters.dropped == 4
+    finally:
+        await port.stopListening()
+    assert notes.events[-1][:2] == ("lost", notes.rolls[0][1])
 
 
 FIRST, OTHER = ("192.0.2.1", 5000), ("192.0.2.2", 5000)

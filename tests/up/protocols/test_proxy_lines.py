@@ -1,5 +1,3 @@
-"""The lines between a proxy and its clients."""
-
 import json
 import random
 from pathlib import Path

@@ -49,14 +49,6 @@ def test_the_port_is_raw_8n1_without_flow_control_and_hupcl(port, baud, speed):
         close_serial(descriptor)
 
 
-def test_hupcl_may_be_left_alone(port):
-    descriptor = open_serial(port[1], 9600, clear_hupcl=False)
-    try:
-        assert termios.tcgetattr(descriptor)[2] & termios.HUPCL
-    finally:
-        close_serial(descriptor)
-
-
 def test_every_byte_passes_unchanged_both_ways(port):
     master, path = port
     descriptor = open_serial(path, 115200)

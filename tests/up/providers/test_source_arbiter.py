@@ -1,5 +1,3 @@
-"""Which source is followed."""
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

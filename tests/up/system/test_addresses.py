@@ -1,5 +1,3 @@
-"""Which addresses count as private."""
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,5 +1,3 @@
-"""How long the link waits between attempts."""
-
 from up.system.backoff import INITIAL_DELAY_S, MAX_DELAY_S, Backoff
 
 

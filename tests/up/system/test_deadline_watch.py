@@ -1,5 +1,3 @@
-"""The thread that ends an instance at the deadline of its lease."""
-
 import threading
 
 import pytest

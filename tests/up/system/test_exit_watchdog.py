@@ -1,5 +1,3 @@
-"""A process that fails to exit is ended."""
-
 import threading
 
 from up.system.exit_watchdog import ExitWatchdog

@@ -1,5 +1,3 @@
-"""Figures as text for Prometheus."""
-
 from math import inf, nan
 
 from hypothesis import given

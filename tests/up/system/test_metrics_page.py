@@ -1,5 +1,3 @@
-"""The page of metrics at its own clock."""
-
 from twisted.internet import reactor
 from twisted.internet.task import Clock
 

@@ -1,5 +1,3 @@
-"""Notifications of a supervisor."""
-
 import os
 import socket
 

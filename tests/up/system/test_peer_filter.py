@@ -1,5 +1,3 @@
-"""Peers that may use a plain listener."""
-
 import pytest
 
 from up.system.peer_filter import PeerFilter

@@ -1,5 +1,3 @@
-"""The file that names a running process, in real processes."""
-
 import os
 import signal
 import subprocess

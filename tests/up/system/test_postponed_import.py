@@ -1,5 +1,3 @@
-"""A module of the standard library that is imported by its first use."""
-
 import subprocess
 import sys
 

@@ -1,5 +1,3 @@
-"""Real-time priority, permitted or not."""
-
 import os
 
 import pytest

@@ -1,5 +1,3 @@
-"""A burst, and a rate in the long run."""
-
 from twisted.internet.task import Clock
 
 from up.system.token_bucket import TokenBucket

@@ -1,5 +1,3 @@
-"""UDP ports."""
-
 import gc
 import socket
 from itertools import pairwise
@@ -13,15 +11,12 @@ from tests.up.commands.samples import Log
 from up.system.udp import MAX_DATAGRAMS_PER_TURN, listen_udp
 
 
-def test_a_free_port_is_opened_where_it_is_asked_for():
-    async def listen():
-        port = listen_udp(reactor, 0, DatagramProtocol(), "127.0.0.1")
-        host = port.getHost()
-        assert host.host == "127.0.0.1"
-        assert host.port > 0
-        await port.stopListening()
-
-    run_in_reactor(listen)
+async def test_a_free_port_is_opened_where_it_is_asked_for():
+    port = listen_udp(reactor, 0, DatagramProtocol(), "127.0.0.1")
+    host = port.getHost()
+    assert host.host == "127.0.0.1"
+    assert host.port > 0
+    await port.stopListening()
 
 
 def test_a_port_in_use_is_refused_and_leaves_no_socket():

@@ -43,10 +43,10 @@ static constexpr int16_t IMU_TICKS = 2 * 490;
 static constexpr int16_t TRANSFER_TICKS = 2 * 430;
 static constexpr int16_t GRACE_TICKS = 2 * 470;
 /** Background work begins only when the longest of its kind ends before that. */
-static constexpr int16_t PIECE_TICKS = 2 * 560;
+static constexpr int16_t PIECE_TICKS = 2 * 610;
 static constexpr int16_t KEEP_TICKS = 2 * 340;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
-static constexpr int16_t COMMAND_TICKS = 2 * 390;
+static constexpr int16_t COMMAND_TICKS = 2 * 440;
 /** After this many slots without background work a slot gives up its sample for it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
 /** The pin against the internal 1.1 V; free running at 125 kHz, a conversion takes 0.1 ms. */
@@ -125,7 +125,7 @@ static void work(int16_t left) {
 
 /** Background work until the IMU's time begins. */
 static void work_until(uint16_t end_ticks) {
-  if (++slots_without_work > PATIENT_SLOTS) end_ticks += IMU_TICKS;
+  if (++slots_without_work > PATIENT_SLOTS && !is_next_sample_due) end_ticks += IMU_TICKS;
   int16_t left;
   while ((left = ticks_until(end_ticks)) > 0) work(left);
 }

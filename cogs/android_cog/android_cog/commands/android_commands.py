@@ -1,9 +1,5 @@
 """The phone's battery, and text for its voice."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 from up.quick_dataclass import dataclass
@@ -13,8 +9,8 @@ from up.quick_dataclass import dataclass
 class AndroidBatteryCommand(BaseCommand):
     """The level of the phone's battery (thesis 3.3.5): without it, its sensors and uplink go."""
 
-    NAME: ClassVar[str] = "android.battery"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    NAME = "android.battery"
+    ROLES = frozenset({Role.SENSOR})
     level_percent: float = value(key="level", minimum=0, maximum=100, unit="percent")
 
 
@@ -22,7 +18,7 @@ class AndroidBatteryCommand(BaseCommand):
 class AndroidBatteryLowCommand(BaseCommand):
     """The event that the phone's battery became low or recovered; bus only."""
 
-    NAME: ClassVar[str] = "android.battery.low"
+    NAME = "android.battery.low"
     level_percent: float = value(key="level", minimum=0, maximum=100, unit="percent")
     low: bool = value()
 
@@ -31,10 +27,10 @@ class AndroidBatteryLowCommand(BaseCommand):
 class AndroidSpeakCommand(BaseCommand):
     """Text for the phone's voice; carried to the phone, which answers it."""
 
-    NAME: ClassVar[str] = "android.speak"
-    TITLE: ClassVar[str] = 'Speak "{}"'
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    ROUTE: ClassVar[str] = "android"
+    NAME = "android.speak"
+    TITLE = 'Speak "{}"'
+    ROLES = frozenset({Role.OPERATOR})
+    ROUTE = "android"
     text: str = value(max_length=200)
 
     def __post_init__(self) -> None:

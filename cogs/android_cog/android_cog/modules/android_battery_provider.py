@@ -1,16 +1,13 @@
 """The battery of the airborne phone (thesis 3.3.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from android_cog.commands.android_commands import (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
 )
 from android_cog.config import ANDROID
-from up.commands.command import BaseCommand
 from up.commands.telemetry_schema import READINGS
 from up.failures import FailureSource
 from up.providers.base_provider import BaseProvider, Reading
@@ -22,30 +19,21 @@ class AndroidBatteryProvider(BaseProvider[float], FailureSource):
     """Provides the level of the phone's battery, percent, and reports when it becomes low."""
 
     READING = "battery"
-    COMMAND: ClassVar[type[BaseCommand]] = AndroidBatteryCommand
+    COMMAND = AndroidBatteryCommand
     MAX_AGE_S = READINGS[READING].source_s
-
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.is_low = False
+    is_low = False
 
     def on_init(self) -> None:
         super().on_init()
         self._low_percent = self.context.config(ANDROID).low_battery_percent
 
     @property
-    def battery_level(self) -> float | None:
-        """Return the newest level, percent; None before the first."""
-        return self.value
-
-    @property
     def failures(self) -> Mapping[str, bool]:
-        """Return what the failsafes know."""
         return {"phone_battery": self.is_low}
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        return {"android": {"batteryLevel": self.battery_level}, **self._ages()}
+        return {"android": {"batteryLevel": self.value}, **self._ages()}
 
     def _value_of(self, command: Any) -> float:
         level: float = command.level_percent

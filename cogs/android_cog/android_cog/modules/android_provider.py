@@ -1,9 +1,7 @@
 """The airborne phone (thesis 3.3.3, 4.2.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from android_cog.config import ANDROID
 from android_cog.orientation_input import OrientationInput
@@ -16,10 +14,9 @@ from up.commands.answer_commands import AckCommand, NackCommand
 from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
-from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
-from up.commands.system_commands import LinkStateCommand, SystemStopCommand
+from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStopCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.log.limits import Limited
 from up.mode import Mode
@@ -47,7 +44,7 @@ class AndroidProvider(BaseStartedModule):
     """
 
     CONFIG = ANDROID
-    DATA_SOURCE: ClassVar[bool] = True
+    DATA_SOURCE = True
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the phone's ports: its sensors have no key."""
@@ -194,7 +191,7 @@ class AndroidProvider(BaseStartedModule):
         self.up.command_receiver.receive_malformed(fault, self._command_link_of(link))
 
     def _command_link_of(self, link: GeneralMessageLink) -> Any:
-        return self._stream_link if self._phone.is_stream(link) else self._datagram_link
+        return self._datagram_link if link is self._phone.datagrams else self._stream_link
 
     def _permits_orientation(self, host: str) -> bool:
         """Return whether a host may send orientation: the phone's, or any without a phone."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
@@ -21,9 +21,9 @@ class ArduinoCalibrateCommand(BaseCommand):
     in the middle.
     """
 
-    NAME: ClassVar[str] = "arduino.calibrate"
-    TITLE: ClassVar[str] = "Calibrate {}"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    NAME = "arduino.calibrate"
+    TITLE = "Calibrate {}"
+    ROLES = frozenset({Role.PILOT})
     what: str = value(choices=tuple(CALIBRATIONS))
 
 
@@ -34,9 +34,9 @@ class BatteryCalibrateCommand(BaseCommand):
     0: the battery is not wired to the Arduino.
     """
 
-    NAME: ClassVar[str] = "up.battery.calibrate"
-    TITLE: ClassVar[str] = "Flight battery has {} V"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    NAME = "up.battery.calibrate"
+    TITLE = "Flight battery has {} V"
+    ROLES = frozenset({Role.PILOT})
     voltage: float = value(unit="V", minimum=0, maximum=MAX_V)
 
 
@@ -44,16 +44,16 @@ class BatteryCalibrateCommand(BaseCommand):
 class ArduinoProfileRequestCommand(BaseCommand):
     """Requests the active profile of the Arduino."""
 
-    NAME: ClassVar[str] = "arduino.profile.request"
-    TITLE: ClassVar[str] = "Request the profile"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
+    NAME = "arduino.profile.request"
+    TITLE = "Request the profile"
+    ROLES = frozenset({Role.OBSERVER})
 
 
 @dataclass(frozen=True, slots=True)
 class ArduinoProfileValuesCommand(BaseCommand):
     """The active profile, with the keys of airframe.yml."""
 
-    NAME: ClassVar[str] = "arduino.profile.values"
+    NAME = "arduino.profile.values"
     profile: dict[str, Any] = value()
 
     @classmethod

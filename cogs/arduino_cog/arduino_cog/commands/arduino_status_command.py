@@ -1,9 +1,5 @@
 """The Arduino's status message, sent five times a second."""
 
-from __future__ import annotations
-
-from typing import ClassVar
-
 from up.commands.board_schema import STATUS, SWITCH_POSITIONS, BoardStatus, Veto
 from up.commands.board_status import TOPIC, reset_causes_of, vetoes_of
 from up.commands.command import BaseCommand
@@ -18,8 +14,8 @@ RECEIVER_WAIT_S = 5
 class ArduinoStatusCommand(BoardStatus, BaseCommand):
     """The status of the Arduino (docs/protocols.md 2.7)."""
 
-    NAME: ClassVar[str] = TOPIC
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})
+    NAME = TOPIC
+    ROLES = frozenset({Role.BOARD})
 
     def is_in_flight(self, has_motor: bool | None) -> bool | None:
         """Return whether the aircraft may be in flight; None while its motor is unknown.

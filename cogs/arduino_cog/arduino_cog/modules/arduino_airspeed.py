@@ -1,7 +1,5 @@
 """Sends the measured airspeed to the Arduino: it tells an acceleration from a pitch angle."""
 
-from __future__ import annotations
-
 import math
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider

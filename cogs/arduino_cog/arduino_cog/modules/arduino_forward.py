@@ -1,7 +1,5 @@
 """Forwards readings to an Arduino with the thesis's firmware; this project's does not use them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from serial_cog.config import ARDUINO
@@ -32,7 +30,6 @@ class ReadingForward(BaseStartedModule):
     source: Any
 
     def load(self) -> bool:
-        """Return whether the firmware is the thesis's."""
         return bool(self.context.config(ARDUINO).framing == "thesis")
 
     def pack(self, value: Any) -> bytes:

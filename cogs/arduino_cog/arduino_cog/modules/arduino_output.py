@@ -1,7 +1,5 @@
 """Sends Outputs and setpoints to the Arduino."""
 
-from __future__ import annotations
-
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import OUTPUT, pack_setpoint
 from up.base_module import BaseModule

@@ -1,14 +1,12 @@
 """Forwards Panic Mode to the Arduino (thesis 3.2.5)."""
 
-from __future__ import annotations
-
 from twisted.python.failure import Failure
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import pack_panic
 from up.base_module import BaseModule
-from up.commands.panic_command import PanicCommand
 from up.commands.refusal import CommandRefusedError
+from up.commands.system_commands import PanicCommand
 from up.mode import WITH_BOARD
 from up.needs import needs
 

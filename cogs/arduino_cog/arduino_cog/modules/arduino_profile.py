@@ -1,7 +1,5 @@
 """The profile of the airframe on the Arduino, and its comparison with airframe.yml."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred
@@ -53,19 +51,17 @@ class ArduinoProfile(BaseModule):
     arduino = needs(ArduinoProvider)
     mission_control = wants(BaseMissionControlProvider)
 
-    def __init__(self) -> None:
-        self._is_settled = False
-        self._is_reading = False
-        self._is_logged = False
-        self._wait_s = FIRST_WAIT_S
-        self._next_s = float("-inf")
-
     @property
     def current(self) -> Profile | None:
         """Return the profile that the Arduino last reported; None while unknown."""
         return self._board.current
 
     def on_init(self) -> None:
+        self._is_settled = False
+        self._is_reading = False
+        self._is_logged = False
+        self._wait_s = FIRST_WAIT_S
+        self._next_s = float("-inf")
         self._wanted = dict(flat(plain_value(AIRFRAME.schema, self.config)))
         self._board = MirroredParameter(
             self.arduino, "c", "C", read_profile, "profile", self._publish

@@ -1,7 +1,5 @@
 """The Arduino as a module: its readings on the bus, its state in telemetry (thesis 4.2.4)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 from typing import Any
@@ -21,11 +19,10 @@ from up.commands.board_status import (
     refusal_text,
     telemetry_of,
 )
-from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand, ServoCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.rx_command import RXCommand
-from up.commands.servo_command import ServoCommand
 from up.config import ConfigErrors, ConfigProblem
 from up.flight_controller.base_board import BaseBoard
 from up.flight_controller.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
@@ -58,15 +55,6 @@ class ArduinoProvider(BaseBoard):
     GROUND_MODES = ("FBW", "RATE")
 
     serial = needs(SerialProvider)
-
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.status: ArduinoStatusCommand | None = None
-        self.has_motor: bool | None = None
-        self.counters: Counter[str] = Counter()
-        self._status_s = float("-inf")
-        self._alive: Timer | None = None
-        self._refusals_named: set[tuple[str, str]] = set()
 
     def load(self) -> bool:
         """Return True; raises if a controlling Raspberry Pi is configured with thesis framing."""
@@ -147,6 +135,12 @@ class ArduinoProvider(BaseBoard):
 
     def on_init(self) -> None:
         super().on_init()
+        self.status: ArduinoStatusCommand | None = None
+        self.has_motor: bool | None = None
+        self.counters: Counter[str] = Counter()
+        self._status_s = float("-inf")
+        self._alive: Timer | None = None
+        self._refusals_named: set[tuple[str, str]] = set()
         self.requests = RequestTracker(self.context.reactor, self.serial.send_command)
         self._veto_changed_before = self.up.vetoes.on_changed
         self.up.vetoes.on_changed = self._on_veto_changed
@@ -197,11 +191,9 @@ class ArduinoProvider(BaseBoard):
         self._stop_alive()
 
     def on_line_heard(self) -> None:
-        """Report that the Arduino is connected."""
         self.report_heard()
 
     def on_line_silent(self) -> None:
-        """Report that the Arduino is gone."""
         self.status = None
         self.requests.fail_all(self.absent)
         self.report_silent()

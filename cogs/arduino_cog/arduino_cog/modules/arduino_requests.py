@@ -1,7 +1,5 @@
 """Passes Commands of the ground to the Arduino: arming, flight mode, calibration."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred
@@ -14,8 +12,7 @@ from arduino_cog.commands.arduino_commands import (
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT, pack_voltage
 from up.base_module import BaseModule
-from up.commands.arming_commands import ArmCommand, DisarmCommand
-from up.commands.flight_state_command import FlightModeCommand
+from up.commands.flight_state_command import ArmCommand, DisarmCommand, FlightModeCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.fields import suggestion
 from up.mode import WITH_BOARD

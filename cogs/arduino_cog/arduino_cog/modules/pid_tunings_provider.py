@@ -1,7 +1,5 @@
 """The gains that the Arduino uses, and their copy in pids.yml (thesis 3.3.2, 4.2.4)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from twisted.internet.defer import Deferred
@@ -41,10 +39,6 @@ class PIDTuningsProvider(BaseModule):
     arduino = needs(ArduinoProvider)
     mission_control = wants(BaseMissionControlProvider)
 
-    def __init__(self) -> None:
-        self._is_pushed = False
-        self._is_logged = False
-
     def load(self) -> bool:
         """Return whether the Arduino is the flight controller, so that it uses its gains."""
         return bool(self.context.application.flight_controller == "arduino")
@@ -60,6 +54,8 @@ class PIDTuningsProvider(BaseModule):
         return None if self.current is None else self.current.completed(self._saved)
 
     def on_init(self) -> None:
+        self._is_pushed = False
+        self._is_logged = False
         self._file = PidsFile(self.context.config_folder)
         self._store = GainsStore(self._file, self.context.reactor)
         self._load()

@@ -1,9 +1,7 @@
 """What the ground and a companion computer add to the flight log."""
 
-from __future__ import annotations
-
 import re
-from typing import Any, ClassVar
+from typing import Any
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
@@ -14,9 +12,9 @@ from up.quick_dataclass import dataclass
 class MarkCommand(BaseCommand):
     """A mark in the flight log with a note of the user."""
 
-    NAME: ClassVar[str] = "black_box.mark"
-    TITLE: ClassVar[str] = 'Mark "{}"'
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    NAME = "black_box.mark"
+    TITLE = 'Mark "{}"'
+    ROLES = frozenset({Role.OPERATOR})
     text: str = value(max_length=200)
 
     def __post_init__(self) -> None:
@@ -31,8 +29,8 @@ _TOPIC = re.compile(r"[a-z0-9_]+(\.[a-z0-9_]+)+", re.ASCII)
 class RecordCommand(BaseCommand):
     """An object that goes into the flight log under a separate topic."""
 
-    NAME: ClassVar[str] = "black_box.record"
-    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    NAME = "black_box.record"
+    ROLES = frozenset({Role.SENSOR})
     topic: str = value(max_length=64)
     content: dict[str, Any] = value()
 

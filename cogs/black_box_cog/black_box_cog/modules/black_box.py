@@ -8,7 +8,7 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from black_box_cog.commands.black_box_commands import MarkCommand, RecordCommand
 from black_box_cog.config import BLACK_BOX
@@ -50,8 +50,8 @@ class BlackBox(BaseThreadModule):
 
     CONFIG = BLACK_BOX
     # First to start and last to stop, to record the other modules' start and stop.
-    LOAD_ORDER: ClassVar[int] = -sys.maxsize
-    SHED_ORDER: ClassVar[int] = 20
+    LOAD_ORDER = -sys.maxsize
+    SHED_ORDER = 20
 
     recorder: Recorder | None = None
 

@@ -1,7 +1,5 @@
 """The CRSF receiver at the Raspberry Pi."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -38,9 +36,12 @@ class CrsfReceiver(BaseStartedModule):
     CONFIG = CRSF
     MODES = WITH_BOARD
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.open_port: Callable[[str, int], int | SerialLike] = open_serial
+    open_port: Callable[[str, int], int | SerialLike] = staticmethod(open_serial)
+
+    def load(self) -> bool:
+        return bool(self.config.port)
+
+    def on_init(self) -> None:
         self._decoder = CrsfDecoder()
         self._counters = self._decoder.counters
         self._channels: list[int] = []
@@ -48,11 +49,6 @@ class CrsfReceiver(BaseStartedModule):
         self._statistics: LinkStatistics | None = None
         self._statistics_s = 0.0
         self._selections = 0
-
-    def load(self) -> bool:
-        return bool(self.config.port)
-
-    def on_init(self) -> None:
         config, reactor = self.config, self.context.reactor
         self._seconds = reactor.seconds
         self._mode_channel = ModeChannel(config.modes)

@@ -1,16 +1,14 @@
 """Discovery of the Raspberry Pi by the airborne phone (thesis 3.3.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.error import CannotListenError
 
 from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
 from discovery_cog.config import DISCOVERY
 from up.base_started_module import BaseStartedModule, StartFailedError
-from up.mode import WITH_BOARD, Mode
+from up.mode import WITH_BOARD
 from up.system.udp import listen_udp
 
 
@@ -18,8 +16,8 @@ class DiscoveryService(BaseStartedModule):
     """Answers the phone's broadcast; not in Black Box Mode, where the server's address is known."""
 
     CONFIG = DISCOVERY
-    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
-    SHED_ORDER: ClassVar[int] = 10
+    MODES = WITH_BOARD
+    SHED_ORDER = 10
 
     def on_init(self) -> None:
         self._answerer = Answerer(RateLimit(self.context.reactor), own_address_towards)

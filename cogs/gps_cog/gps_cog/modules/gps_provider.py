@@ -33,9 +33,9 @@ class GpsProvider(BaseStartedModule):
     CONFIG = GPS
     MODES = WITH_BOARD
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.open_port: OpenPort = open_serial
+    open_port: OpenPort = staticmethod(open_serial)
+
+    def on_init(self) -> None:
         self._receivers: dict[str, Receiver] = {}
         self._sources: list[SerialSource | GpsdSource] = []
 

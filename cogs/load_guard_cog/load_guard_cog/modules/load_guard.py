@@ -10,8 +10,7 @@ import psutil
 
 from load_guard_cog.config import LOAD_GUARD
 from up.base_started_module import BaseStartedModule
-from up.commands.panic_command import PanicCommand
-from up.commands.system_commands import LinkStateCommand
+from up.commands.system_commands import LinkStateCommand, PanicCommand
 from up.system.clock import Timer, cancel
 
 MEMORY_EVERY_S = 5.0
@@ -23,12 +22,7 @@ class LoadGuard(BaseStartedModule):
 
     CONFIG = LOAD_GUARD
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.meter: Meter | None = None
-        self.ram = 0.0
-        self._timer: Timer | None = None
-        self._memory_due_s = float("-inf")
+    meter: Meter | None = None
 
     @property
     def in_panic(self) -> bool:
@@ -58,6 +52,9 @@ class LoadGuard(BaseStartedModule):
         }
 
     def on_init(self) -> None:
+        self.ram = 0.0
+        self._timer: Timer | None = None
+        self._memory_due_s = float("-inf")
         values = self.config
         self._switch = PanicSwitch(
             values.panic_threshold, values.calm_down_threshold, values.dwell_s

@@ -1,7 +1,5 @@
 """Publishes and keeps the state of the system (thesis 3.3.5)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -29,18 +27,15 @@ class SystemStateProvider(BaseStartedModule):
     mode_monitor = needs(ModeMonitor)
     mission_control = wants(BaseMissionControlProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.state: SystemStateCommand | None = None
-        self._is_board_connected = False
-        self._reported: tuple[Any, ...] = ()
-        self._timer: Timer | None = None
-
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         return {"system": {"providers": None if self.state is None else self.state.providers}}
 
     def on_init(self) -> None:
+        self.state: SystemStateCommand | None = None
+        self._is_board_connected = False
+        self._reported: tuple[Any, ...] = ()
+        self._timer: Timer | None = None
         executor = self.up.command_executor
         executor.register_command(LinkStateCommand, self._on_link)
         executor.register_command(SystemStateCommand, self._on_state)

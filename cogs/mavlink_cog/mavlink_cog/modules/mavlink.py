@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 from twisted.internet.error import CannotListenError
@@ -56,7 +56,7 @@ class MAVLink(BaseStartedModule):
     """
 
     CONFIG = MAVLINK
-    SHED_ORDER: ClassVar[int | None] = None
+    SHED_ORDER = None
     requires_protection = False
 
     mission_control = needs(MissionControlProvider)

@@ -1,9 +1,7 @@
 """Telemetry and counters of the daemon for Prometheus."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.error import CannotListenError
 
@@ -16,7 +14,7 @@ class Metrics(BaseStartedModule):
     """Collects telemetry when its page is read. Loaded when ``port`` is configured."""
 
     CONFIG = METRICS
-    SHED_ORDER: ClassVar[int] = 5
+    SHED_ORDER = 5
 
     def load(self) -> bool:
         return self.config.port is not None

@@ -1,7 +1,5 @@
 """A port for ground stations on the aircraft's own network."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The connection with the ground, through the proxy (thesis 4.2.3)."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping
 from functools import partial
@@ -67,8 +65,8 @@ class MissionControlProvider(BaseMissionControlProvider):
     CONFIG = MISSION_CONTROL
     WRITTEN_FILES = (KEYS,)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
+    def on_init(self) -> None:
+        super().on_init()
         self._uplink: Uplink | None = None
         self._outlets: list[Outlet] = []
         self._audited = {LINK}
@@ -78,9 +76,6 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._events: list[Any] = []
         self._requires_protection = False
         self._audit: AuditLog | None = None
-
-    def on_init(self) -> None:
-        super().on_init()
         config = self.config
         self._role = Role(config.role)
         now_s = self.context.reactor.seconds()

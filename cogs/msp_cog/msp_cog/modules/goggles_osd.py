@@ -1,7 +1,5 @@
 """Telemetry as text on the pilot's goggles."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
@@ -45,15 +43,7 @@ class GogglesOsd(BaseStartedModule):
 
     CONFIG = OSD
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.open_port: Callable[[str, int], int | SerialLike] = open_serial
-        self.counters: Counter[str] = Counter()
-        self._decoder = MspDecoder((REQUEST,))
-        self._texts = OsdTexts()
-        self._canvas: tuple[int, int] | None = None
-        self._ticks = self._left = 0
-        self._said = Once(MAX_WARNINGS)
+    open_port: Callable[[str, int], int | SerialLike] = staticmethod(open_serial)
 
     def load(self) -> bool:
         return bool(self.config.port)
@@ -68,6 +58,12 @@ class GogglesOsd(BaseStartedModule):
         }
 
     def on_init(self) -> None:
+        self.counters: Counter[str] = Counter()
+        self._decoder = MspDecoder((REQUEST,))
+        self._texts = OsdTexts()
+        self._canvas: tuple[int, int] | None = None
+        self._ticks = self._left = 0
+        self._said = Once(MAX_WARNINGS)
         config, reactor = self.config, self.context.reactor
         self._seconds = reactor.seconds
         self._screen = OsdScreen(*config.size)

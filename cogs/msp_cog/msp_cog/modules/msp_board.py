@@ -1,13 +1,11 @@
 """A Betaflight board as a module: its readings on the bus, its state in telemetry."""
 
-from __future__ import annotations
-
 import struct
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict
 from functools import partial
-from typing import Any, ClassVar
+from typing import Any
 
 from twisted.internet.task import LoopingCall
 
@@ -18,12 +16,11 @@ from msp_cog.line_opener import open_line
 from msp_cog.messages import BOX_ANGLE, BOX_ARM, BOX_OVERRIDE, Status
 from msp_cog.poller import Poller
 from msp_cog.stick_curve import StickCurve
-from up.commands.flight_state_command import FlightStateCommand
+from up.commands.flight_state_command import FlightStateCommand, ServoCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
-from up.commands.servo_command import ServoCommand
 from up.flight_controller.base_board import BaseBoard
 from up.protocols.serial_line import SerialLine
 
@@ -50,34 +47,8 @@ class MspBoard(BaseBoard):
     CONFIG = MSP
     FLIGHT_CONTROLLERS = frozenset({"msp"})
     DATA_SOURCE = True
-    LINK: ClassVar[str] = "msp"
-    TITLE: ClassVar[str] = "the Betaflight board"
-
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.status: Status | None = None
-        self.curves: tuple[StickCurve, StickCurve] | None = None
-        self.counters: Counter[str] = Counter()
-        self._decoder = MspDecoder()
-        self._poller = Poller()
-        self._known: dict[int, bytes] = {}
-        self._sequence = 0
-        self._rates: tuple[float, float, float] | None = None
-        self._is_heard = False
-        self._receiver = Origin(self.LINK, Role.SENSOR)
-        self._fix = b""
-        self._fix_s = self._heard_s = self._sent_s = float("-inf")
-        self._is_forbidden: bool | None = None
-        self._unanswered_s: float | None = None
-        self._handlers = {
-            messages.ATTITUDE: self._on_attitude,
-            messages.RAW_IMU: self._on_rates,
-            messages.RC: self._on_channels,
-            messages.STATUS: self._on_status,
-            messages.MOTOR: self._on_motor,
-            messages.ANALOG: self._on_analog,
-            messages.RAW_GPS: self._on_gps,
-        }
+    LINK = "msp"
+    TITLE = "the Betaflight board"
 
     @property
     def connected(self) -> bool:
@@ -106,6 +77,29 @@ class MspBoard(BaseBoard):
 
     def on_init(self) -> None:
         super().on_init()
+        self.status: Status | None = None
+        self.curves: tuple[StickCurve, StickCurve] | None = None
+        self.counters: Counter[str] = Counter()
+        self._decoder = MspDecoder()
+        self._poller = Poller()
+        self._known: dict[int, bytes] = {}
+        self._sequence = 0
+        self._rates: tuple[float, float, float] | None = None
+        self._is_heard = False
+        self._receiver = Origin(self.LINK, Role.SENSOR)
+        self._fix = b""
+        self._fix_s = self._heard_s = self._sent_s = float("-inf")
+        self._is_forbidden: bool | None = None
+        self._unanswered_s: float | None = None
+        self._handlers = {
+            messages.ATTITUDE: self._on_attitude,
+            messages.RAW_IMU: self._on_rates,
+            messages.RC: self._on_channels,
+            messages.STATUS: self._on_status,
+            messages.MOTOR: self._on_motor,
+            messages.ANALOG: self._on_analog,
+            messages.RAW_GPS: self._on_gps,
+        }
         config = self.config
         self._line = SerialLine(
             self.context.reactor,
@@ -137,7 +131,6 @@ class MspBoard(BaseBoard):
         self._line.write_newest(messages.SET_RAW_RC, encode(messages.SET_RAW_RC, payload))
 
     def on_bytes(self, data: bytes) -> None:
-        """Take bytes of the board."""
         replies = self._decoder.feed(data)
         counters = self._decoder.counters
         self._poller.on_answers(counters.frames + counters.refused)

@@ -1,7 +1,5 @@
 """Set-points as sticks of the board."""
 
-from __future__ import annotations
-
 from msp_cog.messages import pack_sticks
 from msp_cog.modules.msp_board import MspBoard
 from up.base_module import BaseModule

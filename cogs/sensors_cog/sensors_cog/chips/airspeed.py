@@ -1,11 +1,9 @@
 """Differential pressure: TE MS4525DO (001 psi, D, type A) and Sensirion SDP31, SDP32, SDP33."""
 
-from __future__ import annotations
-
 import math
 
 from sensors_cog.sensor import Aircraft, I2cSensor, WrongChipError
-from up.commands.airspeed_command import AirspeedCommand
+from up.commands.altitude_command import AirspeedCommand
 
 SEA_LEVEL_KG_M3 = 1.225
 LAPSE_PER_M, EXPONENT = 2.25577e-5, 4.2559

@@ -1,7 +1,5 @@
 """Barometers: Bosch BMP280 (BST-BMP280-DS001) and BMP388 (BST-BMP388-DS001)."""
 
-from __future__ import annotations
-
 import struct
 
 from sensors_cog.sensor import Aircraft, I2cSensor

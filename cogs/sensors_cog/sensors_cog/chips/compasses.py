@@ -1,7 +1,5 @@
 """Magnetometers: QST QMC5883L and iSentek IST8310. Axes x forward, y right, z down."""
 
-from __future__ import annotations
-
 import math
 import struct
 

@@ -1,7 +1,5 @@
 """Voltage and current of the flight battery: TI INA219 (SBOS448) and INA226 (SBOS547)."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from sensors_cog.sensor import Aircraft, I2cSensor, WrongChipError

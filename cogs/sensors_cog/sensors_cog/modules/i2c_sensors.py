@@ -1,7 +1,5 @@
 """Reads the sensors at the I2C bus and publishes their measurements."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from importlib import import_module
@@ -39,9 +37,9 @@ class I2cSensors(BaseThreadModule):
     orientation = needs(UpOrientationProvider)
     altitude = needs(UpAltitudeProvider)
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.open_bus: Callable[[int], Any] = SMBus
+    open_bus: Callable[[int], Any] = SMBus
+
+    def on_init(self) -> None:
         self._buses: dict[int, Any] = {}
         self._slots: dict[str, tuple[SensorSlot, Origin]] = {}
 

@@ -1,7 +1,5 @@
 """The serial line as a module: frames in both directions (thesis 3.1.2, 3.2.2)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
@@ -50,10 +48,10 @@ class SerialProvider(BaseStartedModule):
     FLIGHT_CONTROLLERS = frozenset({"arduino", "raspberry"})
     DATA_SOURCE = True
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.lister: Lister = list_ports
-        self.open_port: Callable[[str, int], int] = open_serial
+    lister: Lister = staticmethod(list_ports)
+    open_port: Callable[[str, int], int] = staticmethod(open_serial)
+
+    def on_init(self) -> None:
         self.counters: Counter[str] = Counter()
         self._table = HandlerTable()
         self._handlers = self._table.by_type
