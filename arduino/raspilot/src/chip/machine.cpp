@@ -39,9 +39,11 @@ template <> const PwmReader& Reference<const PwmReader>::only ONLY = autopilot.r
 namespace machine {
 
 /** The last part of a slot is the IMU's: 17 bytes of 22.5 us, starts and polling, 465 us in all. */
-static constexpr int16_t IMU_TICKS = 2 * 490;
-static constexpr int16_t TRANSFER_TICKS = 2 * 430;
+static constexpr int16_t IMU_TICKS = 2 * 512;
+static constexpr int16_t TRANSFER_TICKS = 2 * 460;
 static constexpr int16_t GRACE_TICKS = 2 * 470;
+/** Before a sample that cannot be given up: what interrupts add to a piece of work. */
+static constexpr int16_t RESERVE_TICKS = 2 * 128;
 /** Background work begins only when the longest of its kind ends before that. */
 static constexpr int16_t PIECE_TICKS = 2 * 610;
 static constexpr int16_t KEEP_TICKS = 2 * 340;
@@ -125,7 +127,11 @@ static void work(int16_t left) {
 
 /** Background work until the IMU's time begins. */
 static void work_until(uint16_t end_ticks) {
-  if (++slots_without_work > PATIENT_SLOTS && !is_next_sample_due) end_ticks += IMU_TICKS;
+  if (is_next_sample_due) {
+    end_ticks -= RESERVE_TICKS;
+  } else if (++slots_without_work > PATIENT_SLOTS) {
+    end_ticks += IMU_TICKS;
+  }
   int16_t left;
   while ((left = ticks_until(end_ticks)) > 0) work(left);
 }
