@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from up.commands.altitude_command import AltitudeCommand
+from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
-from up.commands.flight_state_command import ArmCommand, DisarmCommand, FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.mission_commands import MissionItemCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand

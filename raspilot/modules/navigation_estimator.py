@@ -7,7 +7,7 @@ from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.battery_sag import BatterySag
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix, FixSources
-from up.commands.altitude_command import AirspeedCommand
+from up.commands.airspeed_command import AirspeedCommand
 from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand, ServoCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand

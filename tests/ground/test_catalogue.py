@@ -67,8 +67,8 @@ def test_roles(catalogue):
 
 
 def test_two_commands_of_one_name_are_told_and_survived():
+    from up.commands.arming_commands import ArmCommand
     from up.commands.command import BaseCommand
-    from up.commands.flight_state_command import ArmCommand
 
     class Impostor(BaseCommand):
         NAME = "up.arm"

@@ -12,7 +12,7 @@ from raspilot.flight_modes.return_home import Return
 from raspilot.modules.plans import Plans
 from tests.raspilot.navigation_rig import NavigationRig
 from up.base_module import BaseModule
-from up.commands.flight_state_command import ArmCommand, DisarmCommand
+from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role

@@ -8,7 +8,8 @@ from twisted.internet.task import Clock
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.motor_watch import SETTLING_S
 from tests.support.system import build_up
-from up.commands.altitude_command import AirspeedCommand, AltitudeCommand
+from up.commands.airspeed_command import AirspeedCommand
+from up.commands.altitude_command import AltitudeCommand
 from up.commands.flight_state_command import FlightBatteryCommand, ServoCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand

@@ -1,4 +1,4 @@
-"""The measured or required altitude of the aircraft, and its airspeed."""
+"""The measured or required altitude of the aircraft."""
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
@@ -14,13 +14,3 @@ class AltitudeCommand(BaseCommand):
     ROLES_WHERE = {"mode": {"required": frozenset({Role.OPERATOR})}}
     altitude_m: float = value(key="altitude", minimum=-1000, maximum=30000, unit="m")
     mode: str = value("actual", choices=("actual", "required"))
-
-
-@dataclass(frozen=True, slots=True)
-class AirspeedCommand(BaseCommand):
-    """A true airspeed, and the differential pressure that it was computed from."""
-
-    NAME = "up.airspeed.update"
-    ROLES = frozenset({Role.SENSOR})
-    airspeed_m_s: float = value(key="airspeed", minimum=0, maximum=150, unit="m/s")
-    pressure_pa: float | None = value(None, key="pressure", unit="Pa")

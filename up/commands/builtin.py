@@ -1,8 +1,10 @@
 """The Commands included in Up."""
 
 from up.commands import (
+    airspeed_command,
     altitude_command,
     answer_commands,
+    arming_commands,
     flight_state_command,
     heading_command,
     location_command,
@@ -19,8 +21,10 @@ from up.commands import (
 from up.commands.command import BaseCommand
 
 _MODULES = (
+    airspeed_command,
     altitude_command,
     answer_commands,
+    arming_commands,
     flight_state_command,
     heading_command,
     location_command,

@@ -56,26 +56,6 @@ class FlightModeCommand(BaseCommand):
     mode: str = value(max_length=32)
 
 
-@dataclass(frozen=True, slots=True)
-class ArmCommand(BaseCommand):
-    """Arm; the board decides, and an arming veto or a missing beacon refuses it before."""
-
-    NAME = "up.arm"
-    TITLE = "Arm"
-    ROLES = frozenset({Role.PILOT})
-    NEEDS_BEACON = True
-
-
-@dataclass(frozen=True, slots=True)
-class DisarmCommand(BaseCommand):
-    """Disarm; refused without a fresh beacon and unless the throttle has been low for 2 s."""
-
-    NAME = "up.disarm"
-    TITLE = "Disarm"
-    ROLES = frozenset({Role.PILOT})
-    NEEDS_BEACON = True
-
-
 DEFAULT_LIMITS_DEG = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 """How far the sticks bank and pitch in FBW by default; the firmware's are in store/profile.cpp."""
 

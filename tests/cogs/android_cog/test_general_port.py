@@ -8,7 +8,7 @@ from tests.cogs.android_cog.flight import Flight
 from tests.cogs.peers import UdpPeer, connect
 from tests.support.reactor import reactor, until
 from tests.support.tools import unavailable
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 from up.commands.location_command import LocationCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStopCommand

@@ -7,8 +7,9 @@ from arduino_cog.commands.arduino_commands import ArduinoProfileRequestCommand
 from twisted.logger import capturedLogs, globalLogPublisher
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground
+from up.commands.arming_commands import ArmCommand
 from up.commands.board_schema import REASONS, Reason
-from up.commands.flight_state_command import ArmCommand, FlightStateCommand, FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlightStateCommand, FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 
 NAME = "airframe.yml"

@@ -3,8 +3,9 @@
 import pytest
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 
+from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.board_schema import VETOES, Reason
-from up.commands.flight_state_command import ArmCommand, DisarmCommand, FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.system_commands import PanicCommand
 

@@ -14,8 +14,9 @@ from tests.support.firmware import build_firmware
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up, started
 from up.base_started_module import BaseStartedModule
+from up.commands.arming_commands import ArmCommand
 from up.commands.board_schema import Veto
-from up.commands.flight_state_command import ArmCommand, ServoCommand
+from up.commands.flight_state_command import ServoCommand
 from up.commands.origin import INTERNAL
 from up.commands.output_command import SetpointCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand

@@ -9,7 +9,7 @@ from raspilot.flight_modes.return_home import Return
 from tests.cogs.serial_cog.rig import VirtualReactor, run
 from tests.raspilot.navigation_rig import NavigationRig
 from up.base_module import BaseModule
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 from up.life_cycle import LifeCycle
 from up.providers.base_rx_provider import UpRXProvider
 from up_rig.pty_line import PtyLine

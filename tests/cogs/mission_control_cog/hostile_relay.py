@@ -6,7 +6,7 @@ from twisted.internet.protocol import Factory, Protocol
 
 from tests.cogs.mission_control_cog.system import Aircraft
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 from up.config.keys_file import add_key
 from up.protocols.binary_line import PROTECTED, to_body
 from up.protocols.general_message import encode

@@ -15,7 +15,7 @@ from tests.cogs.mission_control_cog.system import Aircraft, listening
 from tests.cogs.peers import connect
 from tests.support.reactor import reactor, until
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.life_cycle import LifeCycle

@@ -12,7 +12,7 @@ from tests.cogs.mission_control_cog.hostile_relay import Ground, fly, pair
 from tests.cogs.mission_control_cog.system import Aircraft
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.commands.answer_commands import CommandAnsweredCommand
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 from up.config import ConfigErrors
 from up.config.keys_file import KEYS, revoke_key
 from up.protocols.binary_line import HANDSHAKE, PROTECTED

@@ -7,7 +7,7 @@ from tests.cogs.mission_control_cog.test_uplink import accepted
 from tests.cogs.peers import Server
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.up.commands.samples import Log
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 
 PUBLIC = "mission_control_cog.modules.mission_control_provider.is_private"
 

@@ -14,7 +14,7 @@ from tests.cogs.mission_control_cog.test_uplink import accepted
 from tests.cogs.peers import Server, TLSServer, connect
 from tests.support.certificates import Certificates
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.commands.flight_state_command import ArmCommand
+from up.commands.arming_commands import ArmCommand
 from up.tls.files import TLSFiles
 
 

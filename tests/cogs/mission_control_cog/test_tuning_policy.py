@@ -1,7 +1,8 @@
 import pytest
 from mission_control_cog.tuning_policy import KEY, TuningPolicy
 
-from up.commands.flight_state_command import DisarmCommand, FlightStateCommand
+from up.commands.arming_commands import DisarmCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 
 LOOP = {axis: {"p": 1.0, "i": 0.0, "d": 0.0} for axis in ("ailerons", "elevator")}

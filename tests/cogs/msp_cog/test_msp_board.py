@@ -7,12 +7,8 @@ from twisted.logger import capturedLogs
 
 from tests.cogs.msp_cog.recorded import ANGLE, ARMED, OVERRIDE, RECEIVER_FAILSAFE, status
 from tests.cogs.msp_cog.rig import Rig
-from up.commands.flight_state_command import (
-    ArmCommand,
-    FlightBatteryCommand,
-    FlightModeCommand,
-    ServoCommand,
-)
+from up.commands.arming_commands import ArmCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightModeCommand, ServoCommand
 from up.commands.location_command import LocationCommand
 from up.commands.output_command import SetpointCommand
 from up.commands.refusal import CommandRefusedError

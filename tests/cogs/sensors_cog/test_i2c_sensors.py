@@ -5,7 +5,8 @@ from sensors_cog.config import SENSORS
 from sensors_cog.modules.i2c_sensors import I2cSensors
 
 from tests.cogs.gps_cog.frames import state_at
-from up.commands.altitude_command import AirspeedCommand, AltitudeCommand
+from up.commands.airspeed_command import AirspeedCommand
+from up.commands.altitude_command import AltitudeCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.config import ConfigErrors

@@ -12,7 +12,8 @@ from arduino_cog.commands.arduino_commands import (
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT, pack_voltage
 from up.base_module import BaseModule
-from up.commands.flight_state_command import ArmCommand, DisarmCommand, FlightModeCommand
+from up.commands.arming_commands import ArmCommand, DisarmCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.fields import suggestion
 from up.mode import WITH_BOARD

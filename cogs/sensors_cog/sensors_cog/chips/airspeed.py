@@ -3,7 +3,7 @@
 import math
 
 from sensors_cog.sensor import Aircraft, I2cSensor, WrongChipError
-from up.commands.altitude_command import AirspeedCommand
+from up.commands.airspeed_command import AirspeedCommand
 
 SEA_LEVEL_KG_M3 = 1.225
 LAPSE_PER_M, EXPONENT = 2.25577e-5, 4.2559
