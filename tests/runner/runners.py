@@ -168,7 +168,7 @@ class RunnerProcess:
         """Wait until the program has logged a line with this code and these fields; return all."""
         wanted = {"code": code, **fields}.items()
         find = lambda: next((each for each in self.events() if wanted <= each.items()), None)  # noqa: E731
-        return wait_until(find, f"the runner logs {code}")
+        return wait_until(find, lambda: f"the runner logs {code}: {self.printed}")
 
     def talk(self, port=None, source="127.0.0.1"):
         talk = Talk(port or self.port, source)

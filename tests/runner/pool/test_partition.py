@@ -27,9 +27,9 @@ def servers(network, tmp_path):
 
 
 @pytest.fixture
-def runners(network, servers, tmp_path):
+def runners(network, servers, short_path):
     """Runners on two of three hosts."""
-    made = [runner_on(number, network, servers, tmp_path) for number in range(COUNT)]
+    made = [runner_on(number, network, servers, short_path) for number in range(COUNT)]
     yield made
     for each in made:
         each.clean()
@@ -49,7 +49,7 @@ def runner_on(number, network, servers, folder):
     return runner
 
 
-def test_a_partition(network, servers, runners, tmp_path):
+def test_a_partition(network, servers, runners, short_path):
     # The host with the leader of the leases, if it has a runner: the others must elect one.
     runners[0].start().logs("pool_ready")
     home = servers.leader("KV_up-leases") % COUNT
@@ -70,7 +70,7 @@ def test_a_partition(network, servers, runners, tmp_path):
     network.heal()
     healed = wait_until(lambda: answer_of(near, "cut", action="status"), "it knows the other")
     assert (healed["host"], healed["pid"]) == (moved["host"], moved["pid"])
-    spans = lives(tmp_path / "history", "cut")
+    spans = lives(short_path / "history", "cut")
     assert [span[2] for span in spans] == [str(spawned["pid"]), str(moved["pid"])]
     assert doubles(spans) == []
 

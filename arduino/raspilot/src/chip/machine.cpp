@@ -45,10 +45,10 @@ static constexpr int16_t GRACE_TICKS = 2 * 470;
 /** Before a sample that cannot be given up: what interrupts add to a piece of work. */
 static constexpr int16_t RESERVE_TICKS = 2 * 128;
 /** Background work begins only when the longest of its kind ends before that. */
-static constexpr int16_t PIECE_TICKS = 2 * 610;
+static constexpr int16_t PIECE_TICKS = 2 * 560;
 static constexpr int16_t KEEP_TICKS = 2 * 340;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
-static constexpr int16_t COMMAND_TICKS = 2 * 440;
+static constexpr int16_t COMMAND_TICKS = 2 * 390;
 /** After this many slots without background work a slot gives up its sample for it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
 /** The pin against the internal 1.1 V; free running at 125 kHz, a conversion takes 0.1 ms. */

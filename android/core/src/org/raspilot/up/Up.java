@@ -16,6 +16,7 @@ import org.raspilot.up.providers.ProvidersController;
 public final class Up {
     private static Up instance;
 
+    private final Loop loop;
     private final CommandRegistry registry;
     private final CommandExecutor executor;
     private final CommandReceiver receiver;
@@ -23,6 +24,7 @@ public final class Up {
 
     /** Creates an Up on a loop; exceptions from handlers are reported to the listener. */
     public Up(Loop loop, HandlerFaultListener faults) {
+        this.loop = loop;
         providers = new ProvidersController(loop);
         registry = CommandRegistry.builtin();
         executor = new CommandExecutor(registry, faults);
@@ -51,6 +53,11 @@ public final class Up {
             throw new IllegalStateException("this process has an Up already");
         }
         instance = up;
+    }
+
+    /** Returns the loop on which all of it lives. */
+    public Loop loop() {
+        return loop;
     }
 
     public CommandRegistry commandRegistry() {
