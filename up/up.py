@@ -96,6 +96,12 @@ class Up:
         return self.get_module(BaseMissionControlProvider)
 
     @property
+    def rx_provider(self) -> Any:
+        from up.providers.base_rx_provider import BaseRXProvider
+
+        return self.get_module(BaseRXProvider)
+
+    @property
     def flight_control(self) -> Any:
         """Return the flight controller on this machine, or None."""
         from up.flight_controller.base_flight_controller import BaseFlightController

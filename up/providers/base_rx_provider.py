@@ -17,13 +17,17 @@ class BaseRXProvider(BaseProvider[RXCommand]):
     COMMAND = RXCommand
     MAX_AGE_S = READINGS[READING].source_s
 
-    @property
-    def telemetry_content(self) -> Mapping[str, Any]:
+    def get_channels(self) -> dict[str, int] | None:
+        """Return the newest inputs by channel, us; None before the first."""
         newest = self.value
         if newest is None:
-            return self._ages()
-        channels = {name: getattr(newest, f"{name}_us") for name in CHANNELS}
-        return {"rx": channels, **self._ages()}
+            return None
+        return {name: getattr(newest, f"{name}_us") for name in CHANNELS}
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        channels = self.get_channels()
+        return self._ages() if channels is None else {"rx": channels, **self._ages()}
 
     def _is_valid(self, command: Any) -> bool:
         return bool(command.valid == ALL_VALID)

@@ -5,7 +5,7 @@ from typing import Any
 
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.telemetry_schema import READINGS
-from up.providers.base_provider import BaseProvider, require
+from up.providers.base_provider import BaseProvider, Reading, require
 
 
 class UpAltitudeProvider(BaseProvider[float]):
@@ -16,11 +16,22 @@ class UpAltitudeProvider(BaseProvider[float]):
     MAX_AGE_S = READINGS[READING].source_s
 
     @property
-    def telemetry_content(self) -> Mapping[str, Any]:
+    def required_altitude(self) -> float | None:
+        """Return the altitude that the flight controller holds at the ground's request, m."""
         control = self.up.flight_control
+        required: float | None = control and control.required("altitude")
+        return required
+
+    @property
+    def altitude(self) -> float | None:
+        """Return the newest altitude, m."""
+        return self.value
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
         return {
-            "altitude": self.value,
-            "altitude_required": control and control.required("altitude"),
+            "altitude": self.altitude,
+            "altitude_required": self.required_altitude,
             **self._ages(),
         }
 
@@ -30,3 +41,9 @@ class UpAltitudeProvider(BaseProvider[float]):
             return None
         altitude: float = command.altitude_m
         return altitude
+
+    def _on_changed(self, reading: Reading[float]) -> None:
+        self._on_altitude_changed()
+
+    def _on_altitude_changed(self) -> None:
+        """Called for a new altitude."""

@@ -6,7 +6,7 @@ from typing import Any
 from up.commands.heading_command import HeadingCommand
 from up.commands.telemetry_schema import READINGS
 from up.earth import compass_deg
-from up.providers.base_provider import BaseProvider, require
+from up.providers.base_provider import BaseProvider, Reading, require
 
 
 class UpHeadingProvider(BaseProvider[float]):
@@ -17,14 +17,37 @@ class UpHeadingProvider(BaseProvider[float]):
     MAX_AGE_S = READINGS[READING].source_s
 
     @property
-    def telemetry_content(self) -> Mapping[str, Any]:
+    def required_heading(self) -> float | None:
+        """Return the course that the flight controller follows at the ground's request, deg."""
         control = self.up.flight_control
-        required = control and control.required("course")
-        return {"heading": {"actual": self.value, "required": required}, **self._ages()}
+        required: float | None = control and control.required("course")
+        return required
+
+    @property
+    def actual_heading(self) -> float | None:
+        """Return the newest measured heading, deg."""
+        return self.value
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        return {
+            "heading": {"actual": self.actual_heading, "required": self.required_heading},
+            **self._ages(),
+        }
 
     def _value_of(self, command: Any) -> float | None:
         heading = compass_deg(command.heading_deg)
         if command.mode == "required":
             require(self.up.flight_control, "course", heading)
+            self._on_required_heading_changed()
             return None
         return heading
+
+    def _on_changed(self, reading: Reading[float]) -> None:
+        self._on_actual_heading_changed()
+
+    def _on_actual_heading_changed(self) -> None:
+        """Called for a new measured heading."""
+
+    def _on_required_heading_changed(self) -> None:
+        """Called for a new required heading."""

@@ -28,14 +28,25 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
         )
 
     @property
+    def roll(self) -> float | None:
+        """Return the newest roll angle, deg."""
+        return None if self._reading is None else self._reading.value.roll_deg
+
+    @property
+    def pitch(self) -> float | None:
+        """Return the newest pitch angle, deg."""
+        return None if self._reading is None else self._reading.value.pitch_deg
+
+    @property
+    def yaw(self) -> float | None:
+        """Return the newest yaw angle, deg."""
+        return None if self._reading is None else self._reading.value.yaw_deg
+
+    @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        newest = self.value
+        newest = None if self._reading is None else self._reading.value
         return {
-            "orientation": {
-                "yaw": newest and newest.yaw_deg,
-                "pitch": newest and newest.pitch_deg,
-                "roll": newest and newest.roll_deg,
-            },
+            "orientation": {"yaw": self.yaw, "pitch": self.pitch, "roll": self.roll},
             "rates": {
                 "yaw": newest and newest.yaw_rate_deg_s,
                 "pitch": newest and newest.pitch_rate_deg_s,

@@ -101,7 +101,7 @@ def test_the_sticks_are_in_reserve_of_the_arduinos(make):
     rig.advance(0.2)
     assert rig.rx.reading.source == "crsf"
     channels = {"throttle": 1100, "ailerons": 1200, "elevator": 1300, "rudder": 1400}
-    assert rig.rx.telemetry_content["rx"] == {**channels, "aux1": 2000, "aux2": 1000}
+    assert rig.rx.get_channels() == {**channels, "aux1": 2000, "aux2": 1000}
     for _ in range(30):
         rig.sticks()
         rig.advance(0.05)

@@ -69,7 +69,7 @@ def test_a_reading_knows_value_source_time_and_age(rig):
     assert provider.age_ms == 250
     assert provider.fresh(0.25) is reading
     assert provider.fresh(0.2) is None
-    assert provider.value.roll_deg == 1.0
+    assert provider.roll == 1.0
 
 
 def test_wall_clock_jumps_are_nothing(rig, monkeypatch):
@@ -101,7 +101,7 @@ def test_one_invalid_channel_makes_the_inputs_unusable(rig):
         assert rig[UpRXProvider].fresh(0.1)
         rig.publish(RXCommand(*STICKS, ALL_VALID & ~(1 << channel)))
         assert rig[UpRXProvider].fresh(0.1) is None
-        assert rig[UpRXProvider].value.throttle_us == 1000
+        assert rig[UpRXProvider].get_channels()["throttle"] == 1000
 
 
 def test_invalid_inputs_of_another_source_do_not_replace_good_ones(rig):
@@ -115,7 +115,7 @@ def test_the_phone_takes_over_from_a_silent_board_and_it_is_logged(rig):
         rig.publish(OrientationCommand(1, 0, 0))
         rig.publish(OrientationCommand(9, 0, 0), PHONE)
         rig.clock.advance(0.1)
-        assert rig[UpOrientationProvider].value.roll_deg == 1
+        assert rig[UpOrientationProvider].roll == 1
     with Log() as log:
         for _ in range(10):
             rig.publish(OrientationCommand(9, 0, 0), PHONE)
@@ -155,27 +155,31 @@ def test_a_source_that_is_not_listed_comes_after_those_that_are(tmp_path):
 
 def test_heading_measured_and_asked_for(rig):
     provider = rig[UpHeadingProvider]
+    heard = []
+    provider._on_actual_heading_changed = lambda: heard.append("actual")
+    provider._on_required_heading_changed = lambda: heard.append("required")
     rig.publish(HeadingCommand(-90, "actual"), PHONE)
     assert rig.refusal_of(HeadingCommand(360, "required")) is Code.NOT_SUPPORTED
-    assert provider.telemetry_content["heading"] == {"actual": 270.0, "required": None}
+    assert heard == ["actual"]
+    assert (provider.actual_heading, provider.required_heading) == (270.0, None)
     assert provider.reading.source == "android"
 
 
 def test_altitude_measured_and_asked_for(rig):
+    provider = rig[UpAltitudeProvider]
     rig.publish(AltitudeCommand(120.5), PHONE)
     assert rig.refusal_of(AltitudeCommand(300, "required")) is Code.NOT_SUPPORTED
-    content = rig[UpAltitudeProvider].telemetry_content
-    assert (content["altitude"], content["altitude_required"]) == (120.5, None)
+    assert (provider.altitude, provider.required_altitude) == (120.5, None)
 
 
 def test_home_is_the_first_place_and_the_way_back_is_computed_here(rig):
     provider = rig[UpLocationProvider]
-    assert provider.telemetry_content["home"] == {"distance": None, "bearing": None}
+    assert provider.distance_from_home is None and provider.required_bearing is None
     rig.publish(LocationCommand(49.0, 16.0, distance_from_home_m=5, required_bearing_deg=5), PHONE)
     rig.publish(LocationCommand(49.001, 16.0, 230.0), PHONE)
-    home, place = (provider.telemetry_content[each] for each in ("home", "location"))
-    assert home == {"distance": pytest.approx(111.2, abs=0.1), "bearing": pytest.approx(180)}
-    assert (place["latitude"], place["longitude"], place["altitude"]) == (49.001, 16.0, 230.0)
+    assert provider.distance_from_home == pytest.approx(111.2, abs=0.1)
+    assert provider.required_bearing == pytest.approx(180)
+    assert (provider.latitude, provider.longitude, provider.altitude) == (49.001, 16.0, 230.0)
 
 
 def test_a_fix_of_the_vectors_reaches_telemetry_with_age_and_satellites(rig):

@@ -28,12 +28,18 @@ class AndroidBatteryProvider(BaseProvider[float], FailureSource):
         self._low_percent = self.context.config(ANDROID).low_battery_percent
 
     @property
+    def battery_level(self) -> float | None:
+        """Return the newest level, percent; None before the first."""
+        return self.value
+
+    @property
     def failures(self) -> Mapping[str, bool]:
+        """Return what the failsafes know."""
         return {"phone_battery": self.is_low}
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        return {"android": {"batteryLevel": self.value}, **self._ages()}
+        return {"android": {"batteryLevel": self.battery_level}, **self._ages()}
 
     def _value_of(self, command: Any) -> float:
         level: float = command.level_percent
