@@ -8,8 +8,9 @@ from typing import Any
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule
 from up.commands.beacon import fresh_s
+from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.commands.system_commands import LinkStateCommand, PanicCommand
+from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.log.limits import Limited, Once
 from up.system.clock import Timer, cancel

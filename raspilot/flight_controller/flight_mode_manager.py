@@ -12,8 +12,9 @@ from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.board_authority import BoardAuthority
 from raspilot.flight_controller.demand_converter import DemandConverter
 from raspilot.flight_controller.flight_memory import MEMORY, Place
-from raspilot.flight_controller.flight_target import FlightTarget, check_required
+from raspilot.flight_controller.flight_target import FlightTarget
 from raspilot.flight_controller.home import HomeKeeper, target_of_place, telemetry_of
+from raspilot.flight_controller.required import check_required
 from raspilot.flight_modes.guided import GUIDED, Guided
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand

@@ -9,40 +9,16 @@ from itertools import islice
 from raspilot.failsafe.config import Fence
 from raspilot.failsafe.fence import AHEAD_S
 from raspilot.mission.borders import LocalBorders, crosses, local_borders, margin_m
+from raspilot.mission.config import MissionConfig
 from raspilot.mission.legs import CIRCLED, Course, Leg, ahead, has_loop_without_place
 from raspilot.mission.progress import NOT_FLOWN
 from raspilot.mission.store import Problem
 from raspilot.navigation.airframe_model import AirframeModel
 from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION
-from up.config import ConfigFile, key
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import JUMP, LAND, RETURN, SPEED, TAKEOFF, WAYPOINT, Border, MissionItem
 from up.quick_dataclass import dataclass
-
-
-@dataclass(frozen=True, slots=True)
-class MissionConfig:
-    """The mode MISSION: a mission outside these limits is refused as a whole."""
-
-    max_distance_m: float = key(
-        5000.0, "Greatest distance from home.", unit="m", minimum=100, maximum=50_000
-    )
-    max_height_m: float = key(
-        120.0, "Greatest height above home.", unit="m", minimum=20, maximum=9000
-    )
-    min_height_m: float = key(
-        20.0, "Least height above home, apart from the ground of a landing.", unit="m",
-        minimum=-1000, maximum=1000,
-    )  # fmt: skip
-
-    def problems(self) -> Iterator[tuple[str, str]]:
-        if self.min_height_m >= self.max_height_m:
-            yield "min_height_m", "must be below max_height_m"
-
-
-MISSION_FILE = ConfigFile("mission.yml", MissionConfig)
-
 
 MIN_GROUND_M_S, MIN_LEG_M = 2.0, 10.0
 SD_M, HEIGHT_MARGIN_M = 5.0, 10.0

@@ -6,11 +6,13 @@ from typing import Any
 from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.battery_sag import BatterySag
 from raspilot.navigation.estimator import Estimator
-from raspilot.navigation.fix_gate import Fix, FixSources
+from raspilot.navigation.fix_gate import Fix
+from raspilot.navigation.fix_sources import FixSources
 from up.commands.airspeed_command import AirspeedCommand
-from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
+from up.commands.servo_command import ServoCommand
 from up.commands.telemetry_schema import READINGS
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState

@@ -10,7 +10,8 @@ from raspilot.failsafe.config import FAILSAFE
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.loiter import LOITER
 from raspilot.flight_modes.return_home import RETURN
-from raspilot.mission.check import MISSION_FILE, Circumstances, check_fence, check_mission
+from raspilot.mission.check import Circumstances, check_fence, check_mission
+from raspilot.mission.config import MISSION_FILE
 from raspilot.mission.progress import NOT_FLOWN, MissionProgress
 from raspilot.mission.store import PlanStore, Problem
 from raspilot.navigation.planning import distance_m

@@ -13,11 +13,11 @@ from raspilot.navigation.horizontal_filter import (
     POSITION_R_M,
     VELOCITY_R_M_S,
     HorizontalFilter,
-    WindMean,
     unseen_variance,
 )
 from raspilot.navigation.motor_watch import MotorWatch
 from raspilot.navigation.vertical_filter import VerticalFilter
+from raspilot.navigation.wind_mean import WindMean
 from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 
 MAX_TIME_S = 1e9

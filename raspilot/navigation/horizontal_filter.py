@@ -1,4 +1,4 @@
-"""The Kalman filter of position, heading offset, airspeed factor and wind, and the mean wind."""
+"""The Kalman filter of position, heading offset, airspeed factor and wind."""
 
 import math
 
@@ -224,21 +224,3 @@ def unseen_variance(unseen_s: float) -> float:
 def _diagonal(*deviations: float) -> list[list[float]]:
     size = len(deviations)
     return [[deviations[i] ** 2 if i == k else 0.0 for k in range(size)] for i in range(size)]
-
-
-PERIOD_S = 40.0
-
-
-class WindMean:
-    """A mean that forgets within ``PERIOD_S``; each estimate counts by its inverse variance."""
-
-    def __init__(self) -> None:
-        self.north_m_s = self.east_m_s = 0.0
-        self._weight = 0.0
-
-    def add(self, north_m_s: float, east_m_s: float, variance: float, dt_s: float) -> None:
-        weight = dt_s / max(variance, 0.01)
-        self._weight = self._weight * math.exp(-dt_s / PERIOD_S) + weight
-        share = weight / self._weight if self._weight > 0.0 else 1.0
-        self.north_m_s += share * (north_m_s - self.north_m_s)
-        self.east_m_s += share * (east_m_s - self.east_m_s)

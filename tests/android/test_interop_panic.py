@@ -12,7 +12,7 @@ from tests.support.reactor import until as soon
 from tests.support.waiting import until
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
-from up.commands.system_commands import PanicCommand
+from up.commands.panic_command import PanicCommand
 
 DELAY_MS = 1000
 PANIC = (

@@ -32,7 +32,7 @@ from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.tools import need_browser
 from tests.support.virtual_environment import REPOSITORY
 from tests.support.waiting import HANG_S
-from up.commands.flight_state_command import ServoCommand
+from up.commands.servo_command import ServoCommand
 from up_ground.catalogue import Catalogue
 from up_ground.settings import Settings
 from up_ground.web.access import Access

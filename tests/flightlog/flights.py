@@ -13,15 +13,17 @@ from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from tests.flightlog.logs import LogMaker
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.command import BaseCommand
-from up.commands.flight_state_command import FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import INTERNAL, Origin
+from up.commands.panic_command import PanicCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
-from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStateCommand
+from up.commands.servo_command import ServoCommand
+from up.commands.system_commands import LinkStateCommand, SystemStateCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.flight_log.command_schema import schema_of
 from up.flight_log.origin_text import KEY, origin_text

@@ -10,12 +10,13 @@ from raspilot.navigation.motor_watch import SETTLING_S
 from tests.support.system import build_up
 from up.commands.airspeed_command import AirspeedCommand
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.flight_state_command import FlightBatteryCommand, ServoCommand
+from up.commands.flight_state_command import FlightBatteryCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
+from up.commands.servo_command import ServoCommand
 from up.commands.telemetry_schema import FIELDS
 from up.earth import MEAN_RADIUS_M
 

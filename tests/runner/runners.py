@@ -45,7 +45,7 @@ def can_connect(port):
 class Talk:
     """One connection that speaks lines."""
 
-    def __init__(self, port, source="127.0.0.1", host="127.0.0.1"):
+    def __init__(self, port, source="", host="127.0.0.1"):
         self.socket = socket.create_connection((host, port), LIMIT_S, source_address=(source, 0))
         self.lines = self.socket.makefile("rb")
 
@@ -177,7 +177,7 @@ class RunnerProcess:
 
     def ask(self, **request):
         """Send a request on its own connection."""
-        talk = Talk(self.port, "" if self.prefix else "127.0.0.1", self.host)
+        talk = Talk(self.port, host=self.host)
         try:
             return talk.ask({"aircraft": self.name, **request})
         finally:

@@ -9,9 +9,10 @@ from tests.support.system import build_up, started
 from tests.up.commands.samples import Log
 from up.base_module import BaseModule
 from up.commands.origin import Origin
+from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code
 from up.commands.roles import Role
-from up.commands.system_commands import LinkStateCommand, PanicCommand
+from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.telemetry_controller import LOG_INTERVAL_S, TelemetryController
 

@@ -22,18 +22,6 @@ class FlightStateCommand(BaseCommand):
 
 
 @dataclass(frozen=True, slots=True)
-class ServoCommand(BaseCommand):
-    """The four servo outputs that the board drives now, in microseconds of pulse."""
-
-    NAME = "up.servo.update"
-    ROLES = frozenset({Role.BOARD})
-    ailerons_us: int = value(key="ailerons", minimum=0, maximum=3000, unit="us")
-    elevator_us: int = value(key="elevator", minimum=0, maximum=3000, unit="us")
-    throttle_us: int = value(key="throttle", minimum=0, maximum=3000, unit="us")
-    rudder_us: int = value(key="rudder", minimum=0, maximum=3000, unit="us")
-
-
-@dataclass(frozen=True, slots=True)
 class FlightBatteryCommand(BaseCommand):
     """The voltage of the flight battery under its present load, and the load where it is known."""
 

@@ -1,4 +1,4 @@
-"""The system as a whole: its state, its load, its links, its end."""
+"""The system as a whole: its state, its links, its end."""
 
 from up.commands.command import BaseCommand, value
 from up.quick_dataclass import dataclass
@@ -21,19 +21,6 @@ class SystemStopCommand(BaseCommand):
     """Stops the program; only modules of the program may send it."""
 
     NAME = "up.system.stop"
-
-
-@dataclass(frozen=True, slots=True)
-class PanicCommand(BaseCommand):
-    """Enters or leaves Panic Mode; ``delay_ms`` is the period that every sender shall keep."""
-
-    NAME = "up.panic"
-    ALIASES = ("load_guard.panic",)
-    panic: bool = value()
-    delay_ms: int = value(minimum=10, maximum=1000, unit="ms")
-    utilization_percent: float | None = value(
-        None, key="utilization", minimum=0, maximum=100, unit="percent"
-    )
 
 
 @dataclass(frozen=True, slots=True)

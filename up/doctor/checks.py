@@ -9,7 +9,7 @@ from typing import Literal
 
 from up.cogs.source_tree import normal_name
 from up.doctor.machine import Machine
-from up.flight_log.flight_file import default_folder
+from up.flight_log.flights_folder import default_folder
 from up.quick_dataclass import dataclass
 from up.version import BUILT_S, VERSION
 

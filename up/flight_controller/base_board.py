@@ -5,9 +5,10 @@ from typing import Any, ClassVar
 
 from up.base_started_module import BaseStartedModule
 from up.commands.command import BaseCommand
-from up.commands.flight_state_command import FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
+from up.commands.servo_command import ServoCommand
 from up.commands.system_commands import LinkStateCommand
 from up.mode import WITH_BOARD
 

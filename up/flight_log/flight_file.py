@@ -1,11 +1,10 @@
-"""Where a flight's files are, and their names: number, start time, aircraft, part."""
+"""The name of a flight's file: number, start time, aircraft, part."""
 
 from __future__ import annotations
 
 import os
 import re
 import time
-from collections.abc import Mapping
 from pathlib import Path
 
 from up.quick_dataclass import dataclass
@@ -66,29 +65,3 @@ def flight_files(folder: Path) -> list[FlightFile]:
         paths = [Path(each.path) for each in entries if each.is_file(follow_symlinks=False)]
     found = [each for each in map(FlightFile.of, paths) if each is not None]
     return sorted(found, key=lambda each: (each.number, each.stamp, each.aircraft, each.part))
-
-
-_LEAF = "flights"
-
-
-def default_folder(environ: Mapping[str, str] = os.environ) -> Path:
-    """Return the default folder of flights.
-
-    A service has the state directory from systemd, a user $XDG_STATE_HOME (XDG Base Directory
-    Specification), by default ~/.local/state.
-    """
-    given = environ.get("STATE_DIRECTORY", "").split(":")[0]
-    if given:
-        return Path(given, _LEAF)
-    home = environ.get("XDG_STATE_HOME", "")
-    try:
-        state = Path(home) if Path(home).is_absolute() else Path("~/.local/state").expanduser()
-    except RuntimeError:
-        # A user without a home: the state directory that a service would have.
-        state = Path("/var/lib")
-    return state / "raspilot" / _LEAF
-
-
-def folder_of(configured: str, environ: Mapping[str, str] = os.environ) -> Path:
-    """Return the folder that ``folder`` of black_box.yml selects."""
-    return Path(configured).expanduser() if configured else default_folder(environ)

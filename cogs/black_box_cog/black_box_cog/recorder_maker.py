@@ -12,7 +12,7 @@ from black_box_cog.ingest_queue import IngestQueue
 from black_box_cog.log_segment import form_of
 from black_box_cog.recorder import Recorder
 from up.commands.command_registry import CommandRegistry
-from up.flight_log.flight_file import folder_of
+from up.flight_log.flights_folder import folder_of
 
 
 def make_recorder(

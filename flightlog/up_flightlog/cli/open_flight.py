@@ -13,7 +13,7 @@ from pathlib import Path
 from up.cli.cli_error import UsageError
 from up.cli.locate import application_of
 from up.fields import printable
-from up.flight_log.flight_file import default_folder, folder_of
+from up.flight_log.flights_folder import default_folder, folder_of
 from up.loading.application import NoApplicationError
 from up_flightlog.read.flights import Flight, find_flight
 from up_flightlog.read.log_summary import summary_topics

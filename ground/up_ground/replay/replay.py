@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from up.fields import printable
-from up.flight_log.flight_file import folder_of
+from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
 from up.output import echo
 from up.sanitize_text import sanitize_text

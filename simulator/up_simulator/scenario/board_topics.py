@@ -8,9 +8,10 @@ from typing import Any
 
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS, Flag
 from up.commands.board_status import TOPIC as STATUS_TOPIC
-from up.commands.flight_state_command import FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.servo_command import ServoCommand
 from up.flight_log.origin_text import KEY as ORIGIN
 from up_simulator.scenario.log import Value
 from up_simulator.scenario.sticks import CHANNELS

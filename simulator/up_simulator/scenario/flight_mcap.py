@@ -11,12 +11,14 @@ import yaml
 
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.command import BaseCommand
-from up.commands.flight_state_command import FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
+from up.commands.panic_command import PanicCommand
 from up.commands.rx_command import RXCommand
-from up.commands.system_commands import LinkStateCommand, PanicCommand
+from up.commands.servo_command import ServoCommand
+from up.commands.system_commands import LinkStateCommand
 from up.flight_log.command_schema import schema_of
 from up.flight_log.foxglove import LOG, LOG_LEVELS, LOG_SCHEMA, timestamp
 from up.flight_log.mcap_writer import McapWriter

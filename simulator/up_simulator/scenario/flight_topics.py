@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
-from up.commands.system_commands import LinkStateCommand, PanicCommand
+from up.commands.panic_command import PanicCommand
+from up.commands.system_commands import LinkStateCommand
 from up.flight_log.origin_text import KEY as ORIGIN
 from up_simulator.aircraft.truth import NAMES, TOPIC
 from up_simulator.scenario.board_topics import (

@@ -10,8 +10,9 @@ from tests.support.reactor import reactor, until
 from tests.support.tools import unavailable
 from up.commands.arming_commands import ArmCommand
 from up.commands.location_command import LocationCommand
+from up.commands.panic_command import PanicCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
-from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStopCommand
+from up.commands.system_commands import LinkStateCommand, SystemStopCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.life_cycle import BootStoppedError
 from up.mode import Mode

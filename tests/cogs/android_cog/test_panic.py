@@ -1,6 +1,6 @@
 from tests.cogs.android_cog.flight import Flight
 from tests.support.reactor import until
-from up.commands.system_commands import PanicCommand
+from up.commands.panic_command import PanicCommand
 
 
 async def test_the_phone_is_told_at_once_and_when_it_connects_during_panic(tmp_path):

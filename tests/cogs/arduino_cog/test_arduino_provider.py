@@ -12,10 +12,10 @@ from tests.cogs.arduino_cog.board import MODULES
 from tests.cogs.serial_cog.rig import VirtualReactor
 from tests.support.system import build_up
 from up.commands.board_schema import VETOES
-from up.commands.flight_state_command import ServoCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.roles import Role
 from up.commands.rx_command import RXCommand
+from up.commands.servo_command import ServoCommand
 from up.commands.system_commands import LinkStateCommand
 from up.config import ConfigErrors
 from up.mode import Mode

@@ -6,8 +6,8 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.board_schema import VETOES, Reason
 from up.commands.flight_state_command import FlightModeCommand
+from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.commands.system_commands import PanicCommand
 
 
 def refusal(outcome):

@@ -16,11 +16,11 @@ from tests.support.system import build_up, started
 from up.base_started_module import BaseStartedModule
 from up.commands.arming_commands import ArmCommand
 from up.commands.board_schema import Veto
-from up.commands.flight_state_command import ServoCommand
 from up.commands.origin import INTERNAL
 from up.commands.output_command import SetpointCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import CommandRefusedError
+from up.commands.servo_command import ServoCommand
 from up.flight_controller.pids_file import PIDS
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider  # isort: skip

@@ -8,8 +8,9 @@ from twisted.internet.task import Clock
 from tests.support.system import build_up, started
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
+from up.commands.panic_command import PanicCommand
 from up.commands.roles import Role
-from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStateCommand
+from up.commands.system_commands import LinkStateCommand, SystemStateCommand
 from up.config import ConfigErrors
 from up.mode import Mode
 from up.telemetry_controller import TelemetryController

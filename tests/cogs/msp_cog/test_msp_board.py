@@ -8,11 +8,12 @@ from twisted.logger import capturedLogs
 from tests.cogs.msp_cog.recorded import ANGLE, ARMED, OVERRIDE, RECEIVER_FAILSAFE, status
 from tests.cogs.msp_cog.rig import Rig
 from up.commands.arming_commands import ArmCommand
-from up.commands.flight_state_command import FlightBatteryCommand, FlightModeCommand, ServoCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightModeCommand
 from up.commands.location_command import LocationCommand
 from up.commands.output_command import SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.servo_command import ServoCommand
 
 AUTO = ARMED | ANGLE | OVERRIDE
 SETPOINT = SetpointCommand(20.0, -5.0, throttle_us=1600)

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from raspilot.failsafe.config import Fence
-from raspilot.mission.check import Circumstances, MissionConfig, check_fence, check_mission
+from raspilot.mission.check import Circumstances, check_fence, check_mission
+from raspilot.mission.config import MissionConfig
 from tests.raspilot.mission.plans_rig import items_of, placed
 from tests.raspilot.navigation_rig import FRAME
 from up.commands.command import InvalidCommandError

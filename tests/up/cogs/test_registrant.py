@@ -127,7 +127,7 @@ def test_modules_of_the_prototype_live_through_all_phases(tmp_path, prototype):
     from prototype_cog.modules.old_switch_module import OldSwitchModule
 
     from up.commands.origin import INTERNAL
-    from up.commands.system_commands import PanicCommand
+    from up.commands.panic_command import PanicCommand
     from up.testing import Bench
 
     bench = Bench(OldClockModule, OldSwitchModule, config_folder=tmp_path)

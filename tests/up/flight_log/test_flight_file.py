@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.flight_log.flight_file import FlightFile, default_folder, flight_files, folder_of
+from up.flight_log.flight_file import FlightFile, flight_files
+from up.flight_log.flights_folder import default_folder, folder_of
 
 HERE = Path("flights")
 

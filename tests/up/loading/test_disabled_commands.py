@@ -3,7 +3,7 @@
 import pytest
 
 from tests.support.application import context_of, plan_of, write_application
-from up.commands.flight_state_command import ServoCommand
+from up.commands.servo_command import ServoCommand
 from up.loading.checking import check_application
 
 HEAD = (

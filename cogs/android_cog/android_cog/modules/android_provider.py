@@ -14,9 +14,10 @@ from up.commands.answer_commands import AckCommand, NackCommand
 from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
+from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
-from up.commands.system_commands import LinkStateCommand, PanicCommand, SystemStopCommand
+from up.commands.system_commands import LinkStateCommand, SystemStopCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.log.limits import Limited
 from up.mode import Mode

@@ -5,8 +5,8 @@ from twisted.python.failure import Failure
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import pack_panic
 from up.base_module import BaseModule
+from up.commands.panic_command import PanicCommand
 from up.commands.refusal import CommandRefusedError
-from up.commands.system_commands import PanicCommand
 from up.mode import WITH_BOARD
 from up.needs import needs
 

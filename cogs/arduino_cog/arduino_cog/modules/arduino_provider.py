@@ -19,10 +19,11 @@ from up.commands.board_status import (
     refusal_text,
     telemetry_of,
 )
-from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightBatteryCommand, FlightStateCommand
 from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.rx_command import RXCommand
+from up.commands.servo_command import ServoCommand
 from up.config import ConfigErrors, ConfigProblem
 from up.flight_controller.base_board import BaseBoard
 from up.flight_controller.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE

@@ -10,7 +10,8 @@ import psutil
 
 from load_guard_cog.config import LOAD_GUARD
 from up.base_started_module import BaseStartedModule
-from up.commands.system_commands import LinkStateCommand, PanicCommand
+from up.commands.panic_command import PanicCommand
+from up.commands.system_commands import LinkStateCommand
 from up.system.clock import Timer, cancel
 
 MEMORY_EVERY_S = 5.0

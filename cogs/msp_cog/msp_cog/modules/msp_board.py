@@ -16,11 +16,12 @@ from msp_cog.line_opener import open_line
 from msp_cog.messages import BOX_ANGLE, BOX_ARM, BOX_OVERRIDE, Status
 from msp_cog.poller import Poller
 from msp_cog.stick_curve import StickCurve
-from up.commands.flight_state_command import FlightStateCommand, ServoCommand
+from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.servo_command import ServoCommand
 from up.flight_controller.base_board import BaseBoard
 from up.protocols.serial_line import SerialLine
 
