@@ -1,5 +1,8 @@
 """The lines that wait for a slow peer."""
 
+HEAD_BYTES = 65536
+"""Handed to the socket in one call at most."""
+
 
 class SendBuffer:
     """Whole lines that the socket has not taken yet.
@@ -49,7 +52,7 @@ class SendBuffer:
         self.kept_bytes += len(line)
 
     def head(self) -> bytes:
-        return bytes(self._buffer[:65536])
+        return bytes(self._buffer[:HEAD_BYTES])
 
     def sent(self, count: int) -> None:
         buffer = self._buffer

@@ -12,6 +12,9 @@ from typing import Any
 
 from up.flight_log.json_message import number_at, value_at
 
+GAP_S = 0.5
+"""Values farther apart are not interpolated."""
+
 
 def _numbers() -> array[float]:
     return array("d")
@@ -36,14 +39,14 @@ class Series:
             self.values.append(value)
 
     def at(self, time_s: float) -> float | None:
-        """Interpolate the value at a time; None if its neighbours are over 0.5 s apart."""
+        """Interpolate the value at a time; None if its neighbours are over ``GAP_S`` apart."""
         after = bisect_left(self.times_s, time_s)
         if after < len(self.times_s) and self.times_s[after] == time_s:
             return self.values[after]
         if not 0 < after < len(self.times_s):
             return None
         low_s, high_s = self.times_s[after - 1], self.times_s[after]
-        if high_s - low_s > 0.5:
+        if high_s - low_s > GAP_S:
             return None
         low, high = self.values[after - 1], self.values[after]
         return low + (high - low) * (time_s - low_s) / (high_s - low_s)
