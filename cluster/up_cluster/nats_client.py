@@ -48,7 +48,7 @@ class NatsClient:
     `start` it, then use it: subscriptions survive a change of the server. Messages without
     a connection are dropped and counted, as are the oldest messages behind a slow server.
     `on_connected(bool)` is called at each change. The reactor's thread only. A reactor with
-    `write_to(transport, data)` writes the messages.
+    `attach(transport, on_data)` hands the received data over, and returns what writes the messages.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class NatsClient:
         on_connected: Callable[[bool], object] = lambda _: None,
     ) -> None:
         self._reactor = reactor
-        self.write_to: Callable[[Any, bytes], None] = getattr(reactor, "write_to", _write)
+        self.attach: Callable[..., Callable[[bytes], None]] = getattr(reactor, "attach", _attach)
         self._servers = deque(servers)
         self._tls = tls
         self._on_connected = on_connected
@@ -114,19 +114,18 @@ class NatsClient:
     def is_connected(self) -> bool:
         return self._link is not None
 
-    def publish(
-        self,
-        subject: str,
-        payload: bytes,
-        *,
-        headers: Mapping[str, str] | None = None,
-        reply: str = "",
-    ) -> None:
+    def publish(self, subject: str, payload: bytes, reply: str = "") -> None:
         """Send a message that may be dropped. Raises ValueError for an invalid subject."""
-        if self._link is None:
+        # The path of every relayed line: avoid every unnecessary call.
+        link = self._link
+        if link is None:
             self.dropped += 1
+            return
+        frame = nats.publish(subject, payload, reply)
+        if link.is_paused:
+            self.dropped += link.keep(frame)
         else:
-            self.dropped += self._link.send_data(nats.publish(subject, payload, reply, headers))
+            link.write(frame)
 
     def subscribe(self, subject: str, on_message: OnMessage) -> int:
         """Call `on_message` for each message; return the handle for `unsubscribe`."""
@@ -267,11 +266,13 @@ class NatsLink(Protocol):
     def __init__(self, client: NatsClient, clock: Clock, server: str) -> None:
         self._client = client
         self._clock = clock
+        self._seconds = clock.seconds
         self._parser = nats.NatsParser()
         self._ping: Timer | None = None
         self._last_rx_s = 0.0
         self._is_ready = False
-        self._is_paused = False
+        self.is_paused = False
+        self.write: Callable[[bytes], None] = lambda _: None
         self._data: deque[bytes] = deque()
         self._data_bytes = 0
         self._failed: tuple[str, str] | None = None
@@ -286,11 +287,12 @@ class NatsLink(Protocol):
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
         self.transport.registerProducer(self, True)
         self.transport.setTcpNoDelay(True)
-        self._last_rx_s = self._clock.seconds()
+        self.write = self._client.attach(self.transport, self.dataReceived)
+        self._last_rx_s = self._seconds()
         self._ping = self._clock.callLater(PING_S, self._on_ping_due)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        self._last_rx_s = self._clock.seconds()
+        self._last_rx_s = self._seconds()
         try:
             for event in self._parser.feed(data):
                 if type(event) is nats.Message:
@@ -311,11 +313,8 @@ class NatsLink(Protocol):
         """Send a frame that is never dropped."""
         self.transport.write(frame)
 
-    def send_data(self, frame: bytes) -> int:
-        """Send a message, or keep it for a slow server; return how many older ones were dropped."""
-        if not self._is_paused:
-            self._client.write_to(self.transport, frame)
-            return 0
+    def keep(self, frame: bytes) -> int:
+        """Keep a message for a slow server; return how many older ones were dropped."""
         self._data.append(frame)
         self._data_bytes += len(frame)
         dropped = 0
@@ -325,11 +324,11 @@ class NatsLink(Protocol):
         return dropped
 
     def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
-        self._is_paused = True
+        self.is_paused = True
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        self._is_paused = False
-        while self._data and not self._is_paused:
+        self.is_paused = False
+        while self._data and not self.is_paused:
             frame = self._data.popleft()
             self._data_bytes -= len(frame)
             self.transport.write(frame)
@@ -360,7 +359,7 @@ class NatsLink(Protocol):
         self.transport.abortConnection()
 
     def _on_ping_due(self) -> None:
-        if self._clock.seconds() - self._last_rx_s > SILENCE_S:
+        if self._seconds() - self._last_rx_s > SILENCE_S:
             self._fail("silent", f"nothing received for {SILENCE_S:g} s")
             return
         self._ping = self._clock.callLater(PING_S, self._on_ping_due)
@@ -368,5 +367,6 @@ class NatsLink(Protocol):
             self.send(nats.PING)
 
 
-def _write(transport: Any, data: bytes) -> None:
-    transport.write(data)
+def _attach(transport: Any, _: Callable[[bytes], object]) -> Callable[[bytes], None]:
+    write: Callable[[bytes], None] = transport.write
+    return write

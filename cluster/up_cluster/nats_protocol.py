@@ -95,9 +95,10 @@ class NatsParser:
                         if buffer[stop : stop + 2] == b"\r\n":
                             at = stop + 2
                             subject = words[1].decode("utf-8", "replace")
-                            yield Message(
-                                subject, int(numbers[0]), "", b"", buffer[at_payload:stop]
-                            )
+                            payload = buffer[at_payload:stop]
+                            fields = subject, int(numbers[0]), "", b"", payload
+                            # Without the call that a NamedTuple makes in Python.
+                            yield tuple.__new__(Message, fields)
                             continue
                     words = line.split()
                     sizes = words[-1:]

@@ -87,6 +87,7 @@ class Poller:
     def do_later(self, step: Callable[[], None]) -> None:
         """Call a step that takes a millisecond or more: one after each batch of events."""
         self._steps.append(step)
+        self._come_back()
 
     def seconds(self) -> float:
         return self.now_s
@@ -125,7 +126,11 @@ class Poller:
             if self.now_s >= leave_s:
                 break
             events = poll(0 if self._steps else self.busy_poll_s, _BATCH)
-        if self._steps and self._again is None:
+        if self._steps:
+            self._come_back()
+
+    def _come_back(self) -> None:
+        if self._again is None:
             self._again = self._reactor.callLater(0, self._continue)
 
     def _continue(self) -> None:

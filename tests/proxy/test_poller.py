@@ -4,6 +4,7 @@ import itertools
 import socket
 
 import pytest
+from twisted.internet.testing import MemoryReactorClock
 from twisted.logger import globalLogPublisher
 
 from tests.proxy.virtual import Bench
@@ -79,3 +80,16 @@ def test_it_returns_to_the_reactor_under_unending_load():
         poller.discard(there.fileno())
         poller.doRead()
     poller.stop()
+
+
+def test_a_step_outside_any_event_is_taken_too():
+    clock, taken = MemoryReactorClock(), []
+    poller = Poller(clock, clock.seconds)
+    poller.busy_poll_s = 0.0
+    poller.do_later(lambda: taken.append(1))
+    poller.do_later(lambda: taken.append(2))
+    assert taken == []
+    while clock.getDelayedCalls():
+        clock.advance(0)
+    poller.stop()
+    assert taken == [1, 2]

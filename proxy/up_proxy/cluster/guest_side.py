@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 HOME_LIMIT_S = 3.0
 """A home that sends no beacon for this long counts as gone."""
+_FRESH_S = 1.5
+"""After this time without its beacon the list goes to all nodes, as another one may be the home."""
 
 
 class GuestSide(Owner):
@@ -41,10 +43,16 @@ class GuestSide(Owner):
         """Grounds that the home does not know yet."""
         self.fence = 0
         """The highest fencing number seen."""
+        self._home = ""
 
     @property
     def has_home(self) -> bool:
         return self._poller.now_s - self._beacon_s < HOME_LIMIT_S
+
+    @property
+    def home(self) -> str | None:
+        """The home's node, if its beacon is fresh."""
+        return self._home if self._poller.now_s - self._beacon_s < _FRESH_S else None
 
     def admit(self, ground: Connection, access: Access) -> None:
         ground.owner = self
@@ -97,9 +105,9 @@ class GuestSide(Owner):
         self._asking.discard(number)
         self._session.send_list()
 
-    def on_beacon(self, fence: int, beacon: Beacon, me: str) -> None:
+    def on_beacon(self, home: str, fence: int, beacon: Beacon, me: str) -> None:
         """Follow a home; the request of a ground that it admitted is over."""
-        self.fence, self._beacon_s = fence, self._poller.now_s
+        self._home, self.fence, self._beacon_s = home, fence, self._poller.now_s
         for number in self._asking.intersection(beacon.known.get(me, ())):
             self._asking.discard(number)
             self.accesses[number] = Access.LISTEN

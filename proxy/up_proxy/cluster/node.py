@@ -3,6 +3,7 @@
 import socket
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +19,18 @@ from up_cluster.membership import Membership, usage_of, word
 from up_cluster.nats_protocol import Message
 from up_proxy.cluster.handshake import ClusterHandshake
 from up_proxy.cluster.node_messages import (
+    ENVELOPE,
     Envelope,
     MalformedError,
     encode_usage,
-    pack,
+    parse_batch,
     parse_usage,
     unpack,
 )
 from up_proxy.cluster.poller_reactor import PollerReactor
 from up_proxy.cluster.sender_ages import SenderAges
 from up_proxy.cluster.session import ClusterSession
+from up_proxy.cluster.state_batches import StateBatches
 from up_proxy.metrics import Metric, Row, Samples, named, one
 from up_proxy.poller import Poller
 from up_proxy.registry import AircraftRegistry
@@ -55,7 +58,8 @@ class ClusterNode:
         self._reactor = reactor
         self._poller = poller
         self.quota = quota
-        self._sessions: set[ClusterSession] = set()
+        self._sessions: dict[str, ClusterSession] = {}
+        self.batches = StateBatches(poller, self._send_batch)
         self._member = Membership(
             reactor,
             config,
@@ -67,6 +71,7 @@ class ClusterNode:
         self._member.on_connected = self._on_connected
         self._member.on_ready = self._on_ready
         self.id = self._member.id
+        self._word = self.id.encode("ascii")
         self._member.actions.update(
             report=self._report, drain=self._on_drain_request, kick=self._kick
         )
@@ -87,14 +92,15 @@ class ClusterNode:
         return self._member.is_ready
 
     def start(self) -> None:
-        self._client.subscribe(self._member.subject("nodes"), self._on_heartbeat)
+        self.subscribe(self._member.subject("nodes"), self._on_heartbeat)
+        self.subscribe(self._batch_subject(self.id), self._on_batch)
         self._member.start()
         self._beat()
 
     def stop(self) -> "Deferred[None]":
         """Leave every aircraft to the other nodes, and disconnect."""
         cancel(self._timer)
-        for session in list(self._sessions):
+        for session in list(self._sessions.values()):
             session.drain()
         waiting = DeferredList(list(self._releases)).addTimeout(STOP_LIMIT_S, self._reactor)
         done = waiting.addErrback(lambda _: None)
@@ -103,16 +109,17 @@ class ClusterNode:
     def drain(self) -> None:
         """Leave every aircraft to the other nodes, and stay connected."""
         self.on_drain()
-        for session in list(self._sessions):
+        for session in list(self._sessions.values()):
             session.drain()
 
     # What `up-fleet` requests.
 
     def _homes(self) -> list[ClusterSession]:
-        return [each for each in self._sessions if each.is_home]
+        return [each for each in self._sessions.values() if each.is_home]
 
     def _report(self, message: dict[str, Any]) -> dict[str, Any]:
-        guests = [each for each in self._sessions if not each.is_home and each.own_grounds]
+        sessions = self._sessions.values()
+        guests = [each for each in sessions if not each.is_home and each.own_grounds]
         return {
             "kind": "proxy",
             "host": socket.gethostname(),
@@ -142,12 +149,12 @@ class ClusterNode:
     # What the sessions use.
 
     def new_session(self, name: str, poller: Poller, limited: Limited) -> ClusterSession:
-        session = ClusterSession(self, name, poller, limited)
-        self._sessions.add(session)
+        session = self._sessions[name] = ClusterSession(self, name, poller, limited)
         return session
 
     def forget(self, session: ClusterSession) -> None:
-        self._sessions.discard(session)
+        if self._sessions.get(session.name) is session:
+            del self._sessions[session.name]
 
     def new_handshake(self, side: Side, registry: AircraftRegistry) -> ClusterHandshake:
         return ClusterHandshake(side, registry, self._poller, self.quota)
@@ -159,23 +166,51 @@ class ClusterNode:
         return self._member.key("aircraft", aircraft)
 
     def send(self, subject: str, fence: int, ground: int, body: bytes) -> None:
-        self._client.publish(subject, pack(self.id, fence, self._reactor.seconds(), ground, body))
+        sent_ms = int(self._reactor.seconds() * 1000)
+        self._client.publish(subject, ENVELOPE % (self._word, fence, sent_ms, ground, body))
 
-    def subscribe(self, subject: str, on_message: Callable[[Envelope], None]) -> int:
+    def _send_batch(self, node: str, body: bytes) -> None:
+        self.send(self._batch_subject(node), 0, 0, body)
+
+    def _batch_subject(self, node: str) -> str:
+        return self._member.subject(f"nodes.{node}")
+
+    def _on_batch(self, message: Envelope) -> None:
+        # NATS delivers several at once, and relayed lines would wait behind them.
+        self._poller.do_later(partial(self._take_batch, message))
+
+    def _take_batch(self, message: Envelope) -> None:
+        try:
+            for aircraft, fence, body in parse_batch(message.body):
+                if (session := self._sessions.get(aircraft)) is not None:
+                    session.on_batched(message._replace(fence=fence, body=body))
+        except MalformedError:
+            self._malformed += 1
+
+    def subscribe(
+        self,
+        subject: str,
+        on_message: Callable[[Envelope], None],
+        newest_s: dict[str, float] | None = None,
+    ) -> int:
         """Pass on messages that are not malformed, older than MAX_AGE_S, or overtaken.
 
         A NATS server that hung delivers what its node has sent since then by another one.
+        `newest_s`: the times of the senders' newest messages, if other messages count for it, too.
         """
-        newest_s: dict[str, float] = {}
+        newest = {} if newest_s is None else newest_s
+        # Not the poller's time: after a pause of this process, old messages are in its batch.
+        seconds, is_older = self._reactor.seconds, self._ages.is_older
 
         def receive(message: Message) -> None:
             try:
                 envelope = unpack(message.payload)
-                sent_s = envelope.sent_s
-                if self._is_stale(envelope) or sent_s < newest_s.get(envelope.node, sent_s):
+                node, _, sent_s, _, _ = envelope
+                is_overtaken = sent_s < newest.get(node, 0.0)
+                if is_overtaken or is_older(MAX_AGE_S, node, sent_s, seconds()):
                     self.stale += 1
                 else:
-                    newest_s[envelope.node] = sent_s
+                    newest[node] = sent_s
                     on_message(envelope)
             except MalformedError:
                 self._malformed += 1
@@ -208,17 +243,10 @@ class ClusterNode:
         ]
         return named("up_proxy_cluster", counters, gauges)
 
-    def _is_stale(self, envelope: Envelope) -> bool:
-        now_s = self._reactor.seconds()
-        return self._ages.age_s(envelope.node, envelope.sent_s, now_s) > MAX_AGE_S
-
-    def _on_heartbeat(self, message: Message) -> None:
-        try:
-            envelope = unpack(message.payload)
-            if not self._is_stale(envelope) and envelope.body:
-                self.quota.on_heartbeat(envelope.node, parse_usage(envelope.body))
-        except MalformedError:
-            self._malformed += 1
+    def _on_heartbeat(self, message: Envelope) -> None:
+        self._ages.age_s(message.node, message.sent_s, self._reactor.seconds())
+        if message.body:
+            self.quota.on_heartbeat(message.node, parse_usage(message.body))
 
     def _beat(self) -> None:
         self._timer = self._reactor.callLater(HEARTBEAT_S, self._beat)

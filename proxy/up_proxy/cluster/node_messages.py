@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -11,9 +11,14 @@ from up.protocols.proxy_lines import Access
 from up.quick_dataclass import dataclass
 from up_proxy.tenant_quota import Usage
 
+ENVELOPE = b"%b %d %d %d\n%b"
+"""A message as bytes: the fields of `Envelope`, the time in milliseconds."""
 MAX_NUMBER = 2**53
-_MAX_HEADER = 32 + 3 * 17
+_MAX_DIGITS = 16
+_MAX_HEADER = 32 + 3 * (1 + _MAX_DIGITS)
 """Bytes of a node's name and three numbers of 16 digits."""
+_tuple_new = tuple.__new__
+"""Without the call that a NamedTuple makes in Python."""
 _NAME = re.compile(r"[!-~]{1,32}", re.ASCII)
 
 
@@ -31,11 +36,6 @@ class Envelope(NamedTuple):
     body: bytes
 
 
-def pack(node: str, fence: int, sent_s: float, ground: int, body: bytes) -> bytes:
-    """Return a message; its time is kept in milliseconds."""
-    return b"%b %d %d %d\n%b" % (node.encode("ascii"), fence, int(sent_s * 1000), ground, body)
-
-
 def unpack(payload: bytes) -> Envelope:
     """Return the parts of a message. Raises MalformedError."""
     # The path of every relayed line: a regular expression takes twice as long.
@@ -48,8 +48,8 @@ def unpack(payload: bytes) -> Envelope:
             and sent_ms.isdigit()
             and ground.isdigit()
         ):
-            node = _known_name(name)
-            return Envelope(node, int(fence), int(sent_ms) / 1000, int(ground), body)
+            fields = _known_name(name), int(fence), int(sent_ms) / 1000, int(ground), body
+            return _tuple_new(Envelope, fields)
     except ValueError:
         pass
     raise MalformedError("header")
@@ -128,6 +128,22 @@ def parse(body: bytes) -> GroundList | Beacon | GroundLine:
         return Beacon(bool(fields["online"]), None if owner is None else _number(owner), known)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise MalformedError(str(error)) from None
+
+
+def pack_batch(entries: Iterable[tuple[str, int, bytes]]) -> bytes:
+    """Return the body of a message with lists and beacons of several aircraft: a line for each."""
+    lines = (b"%b %d %b\n" % (name.encode("ascii"), fence, body) for name, fence, body in entries)
+    return b"".join(lines)
+
+
+def parse_batch(body: bytes) -> Iterator[tuple[str, int, bytes]]:
+    """Yield aircraft, fencing number and message. Raises MalformedError."""
+    for line in body.splitlines():
+        name, _, rest = line.partition(b" ")
+        fence, _, message = rest.partition(b" ")
+        if not name.isascii() or not fence.isdigit() or len(fence) > _MAX_DIGITS:
+            raise MalformedError("batch")
+        yield name.decode("ascii"), int(fence), message
 
 
 def encode_usage(usage: Usage) -> bytes:

@@ -25,27 +25,28 @@ class RemoteGrounds:
         self._grounds = grounds
         self._admit = admit
         self._send = send
-        self._by_key: dict[tuple[str, int], RemoteGround] = {}
+        self.by_key: dict[tuple[str, int], RemoteGround] = {}
+        """By node and number."""
         self._listed_s: dict[str, float] = {}
 
     def __len__(self) -> int:
-        return len(self._by_key)
+        return len(self.by_key)
 
     @property
-    def is_listed(self) -> bool:
-        return bool(self._listed_s)
+    def nodes(self) -> Collection[str]:
+        """The nodes that send lists."""
+        return self._listed_s.keys()
 
-    def get(self, node: str, number: int) -> RemoteGround | None:
-        return self._by_key.get((node, number))
-
-    def numbers(self) -> dict[str, list[int]]:
+    def numbers(self, *nodes: str) -> dict[str, list[int]]:
+        """Return the grounds of each of the nodes; without nodes those of all."""
         found: dict[str, list[int]] = {}
-        for node, number in self._by_key:
-            found.setdefault(node, []).append(number)
+        for node, number in self.by_key:
+            if not nodes or node in nodes:
+                found.setdefault(node, []).append(number)
         return found
 
     def clear(self) -> None:
-        self._by_key.clear()
+        self.by_key.clear()
         self._listed_s.clear()
 
     def update(self, node: str, listed: GroundList, now_s: float) -> bool:
@@ -55,14 +56,14 @@ class RemoteGrounds:
         self._end(node, keep=present.keys())
         is_new = False
         for number, each in present.items():
-            known = self._by_key.get((node, number))
+            known = self.by_key.get((node, number))
             if known is not None:
                 known.last_rx_s = max(known.last_rx_s, now_s - each.age_s)
                 self._correct(known, each.access)
                 continue
             is_new = True
             remote = RemoteGround(each, now_s, partial(self._send_line, node, number))
-            self._by_key[node, number] = remote
+            self.by_key[node, number] = remote
             self._admit(remote, each.access, each.token)
         return is_new
 
@@ -86,6 +87,6 @@ class RemoteGrounds:
         self._send(number, GroundLine(node, line).encode())
 
     def _end(self, node: str, keep: Collection[int] = ()) -> None:
-        gone = [key for key in self._by_key if key[0] == node and key[1] not in keep]
+        gone = [key for key in self.by_key if key[0] == node and key[1] not in keep]
         for key in gone:
-            self._grounds.on_end(self._by_key.pop(key), "its node does not list it")
+            self._grounds.on_end(self.by_key.pop(key), "its node does not list it")

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from up_proxy.cluster.node import ClusterNode
 
 REPEAT_S = 1.0
-"""Period of a guest's list and of a home's beacon."""
+"""Period of a guest's list and of a home's beacon, in batches between the two nodes."""
 _log = UpLogger.get_logger("proxy")
 
 
@@ -52,9 +52,11 @@ class ClusterSession(AircraftSession):
         # Of many aircraft that came together not all repeat in the same round.
         self._repeated_s = poller.now_s - REPEAT_S * phase_of(name)
         self._beaconed: tuple[bool, int | None] = (False, None)
-        self._subject = node.subject(name)
-        self._control_sid = node.subscribe(f"{self._subject}.control", self._on_control)
-        self._data_sid = node.subscribe(f"{self._subject}.down", self._on_down)
+        kinds = "down", "up", "control"
+        self._down, self._up, self._control = (f"{node.subject(name)}.{kind}" for kind in kinds)
+        self._control_newest_s: dict[str, float] = {}
+        self._control_sid = node.subscribe(self._control, self._on_control, self._control_newest_s)
+        self._data_sid = node.subscribe(self._down, self._on_down)
 
     def _new_grounds(self) -> HomeGroundSide:
         return HomeGroundSide(self, self._poller)
@@ -74,6 +76,10 @@ class ClusterSession(AircraftSession):
         return super().is_deserted(now_s) and not self.guests.connections and not self._claims
 
     def close(self) -> None:
+        # Of many that end together each waits for its turn.
+        self._poller.do_later(self._leave)
+
+    def _leave(self) -> None:
         self._node.forget(self)
         for sid in (self._control_sid, self._data_sid):
             self._node.unsubscribe(sid)
@@ -182,6 +188,9 @@ class ClusterSession(AircraftSession):
             "control": None if control.state(now_s) is State.FREE else control.token,
         }
 
+    def _start_write(self) -> None:
+        Deferred.fromCoroutine(self._write_changes()).addErrback(_ignore_unavailable)
+
     async def _write_changes(self) -> None:
         async with self.changes:
             if self.lease is not None and self._data() != self.lease.data:
@@ -199,7 +208,7 @@ class ClusterSession(AircraftSession):
     def _become_home(self) -> None:
         assert self.lease is not None
         now_s = self._home_since_s = self._poller.tick()
-        self._subscribe_data(f"{self._subject}.up", self._on_up)
+        self._subscribe_data(self._up, self._on_up)
         data = self.lease.data
         self.air_lease.reserve(str(data["air"]), now_s)
         if data["control"]:
@@ -210,7 +219,7 @@ class ClusterSession(AircraftSession):
 
     def _become_guest(self) -> None:
         """Let another node have the aircraft; the grounds here become its guests."""
-        self._subscribe_data(f"{self._subject}.down", self._on_down)
+        self._subscribe_data(self._down, self._on_down)
         air = self.air_lease.owner
         self.air_lease.release()
         if air is not None:
@@ -253,10 +262,11 @@ class ClusterSession(AircraftSession):
         # The guests of a new home list their grounds a moment later.
         is_heard = self._remotes or self._poller.now_s - self._home_since_s < REPEAT_S
         if is_heard and self.air_lease.owner is connection:
-            self._send(".down", 0, lines)
+            fence = self.guests.fence if self.lease is None else self.lease.fence
+            self._node.send(self._down, fence, 0, lines)
 
     def send_up(self, ground: int, lines: bytes) -> None:
-        self._send(".up", ground, lines)
+        self._node.send(self._up, self.guests.fence, ground, lines)
 
     def send_list(self) -> None:
         if self.lease is None:
@@ -275,12 +285,27 @@ class ClusterSession(AircraftSession):
             self._beaconed = self._shown_online, self._shown_owner
             self._send_control(0, Beacon(*self._beaconed, self._remotes.numbers()).encode())
 
-    def _send_control(self, ground: int, body: bytes) -> None:
-        self._send(".control", ground, body)
+    def _repeat(self) -> None:
+        """Send what holds: to the nodes with grounds, or to the home; if it is unknown to all."""
+        if self.lease is not None:
+            for node in self._remotes.nodes:
+                self._node.batches.add(node, self)
+        elif self.guests.connections:
+            if (home := self.guests.home) is None:
+                self.send_list()
+            else:
+                self._node.batches.add(home, self)
 
-    def _send(self, kind: str, ground: int, body: bytes) -> None:
+    def state_for(self, node: str) -> tuple[int, bytes]:
+        """Return the fencing number and the list or beacon for a node."""
+        if self.lease is None:
+            return self.guests.fence, self.guests.list().encode()
+        known = self._remotes.numbers(node)
+        return self.lease.fence, Beacon(*self._beaconed, known).encode()
+
+    def _send_control(self, ground: int, body: bytes) -> None:
         fence = self.guests.fence if self.lease is None else self.lease.fence
-        self._node.send(self._subject + kind, fence, ground, body)
+        self._node.send(self._control, fence, ground, body)
 
     def _on_down(self, message: Envelope) -> None:
         if self.lease is not None or message.fence < self.guests.fence:
@@ -292,7 +317,7 @@ class ClusterSession(AircraftSession):
         self.dropped_lines += relay_to_all(self.guests.connections.values(), lines)
 
     def _on_up(self, message: Envelope) -> None:
-        remote = self._remotes.get(message.node, message.ground)
+        remote = self._remotes.by_key.get((message.node, message.ground))
         if self.lease is None or message.fence != self.lease.fence or remote is None:
             self._node.fenced += 1
             return
@@ -301,6 +326,15 @@ class ClusterSession(AircraftSession):
             self.grounds.take(remote, message.body)
         else:
             self.rejected_lines += message.body.count(b"\n")
+
+    def on_batched(self, message: Envelope) -> None:
+        """Handle a list or a beacon out of a batch."""
+        newest_s = self._control_newest_s
+        if message.sent_s < newest_s.get(message.node, 0.0):
+            self._node.stale += 1
+        else:
+            newest_s[message.node] = message.sent_s
+            self._on_control(message)
 
     def _on_control(self, message: Envelope) -> None:
         said = parse(message.body)
@@ -324,25 +358,22 @@ class ClusterSession(AircraftSession):
                 self.guests.on_line(message.ground, said.line)
         else:
             is_new = message.fence > self.guests.fence
-            self.guests.on_beacon(message.fence, said, self._node.id)
+            self.guests.on_beacon(message.node, message.fence, said, self._node.id)
             if is_new and self.guests.connections:
                 self.send_list()
 
     def sweep(self) -> None:
         now_s = self._poller.now_s
+        if now_s - self._repeated_s >= REPEAT_S:
+            self._repeated_s = now_s
+            self._repeat()
         if self.lease is None:
             self.guests.sweep()
-            if self.guests.connections and now_s - self._repeated_s >= REPEAT_S:
-                self._repeated_s = now_s
-                self.send_list()
             return
         self._remotes.expire(now_s)
         super().sweep()
-        if self._remotes.is_listed and now_s - self._repeated_s >= REPEAT_S:
-            self._repeated_s = now_s
-            self._send_beacon()
         if not self.changes.locked and self._data() != self.lease.data:
-            Deferred.fromCoroutine(self._write_changes()).addErrback(_ignore_unavailable)
+            self._poller.do_later(self._start_write)
 
     def kick(self) -> None:
         """End the connections of the aircraft, and free its name and its control."""

@@ -12,7 +12,7 @@ from tests.proxy.program import Client, Program, accepted
 from tests.support.scrape import scrape
 from tests.support.waiting import DEADLINE_S, until
 from up_cluster import nats_protocol as nats
-from up_proxy.cluster.node_messages import pack
+from up_proxy.cluster.node_messages import ENVELOPE
 from up_proxy.cluster.sender_ages import SETTLE_S
 
 READY_S = 60.0
@@ -166,7 +166,8 @@ def is_closed_after(client, line):
 
 def packed(sender, fence, ground, body, age_s=0.0):
     """Return a message of a node whose clock is this machine's."""
-    return pack(sender, fence, time.monotonic() - age_s, ground, body)
+    sent_ms = int((time.monotonic() - age_s) * 1000)
+    return ENVELOPE % (sender.encode(), fence, sent_ms, ground, body)
 
 
 class RawNats:

@@ -20,7 +20,15 @@ from tests.proxy.program import Client
 from tests.support.nats_servers import NatsServers
 from tests.support.waiting import until
 from up.protocols.proxy_lines import Access
-from up_proxy.cluster.node_messages import Beacon, GroundList, ListedGround, unpack
+from up_proxy.cluster.node_messages import (
+    Beacon,
+    GroundList,
+    ListedGround,
+    pack_batch,
+    parse,
+    parse_batch,
+    unpack,
+)
 
 
 @pytest.fixture(scope="module")
@@ -163,6 +171,37 @@ def test_a_line_about_control_that_a_guest_did_not_get_is_repeated(nodes):
             say(Access.LISTEN, Access.COMMAND)
             expect(1, b"seat command")
             expect(2, b"seat listen")
+
+
+def test_lists_and_beacons_are_repeated_in_batches(nodes):
+    aircraft, _ = nodes.aircraft(0, "batched")
+    (home,) = (each["node"] for each in nodes.programs[0].events if "node" in each)
+    with aircraft, RawNats(nodes.servers.ports[1]) as guest:
+        guest.subscribe("up.default.nodes.batcher")
+        nodes.introduce(0, guest, "batcher")
+
+        def listed(*numbers):
+            grounds = [
+                ListedGround(number, Access.LISTEN, f"{number}" * 32, True, False, "::1", 0.0)
+                for number in numbers
+            ]
+            return GroundList(tuple(grounds)).encode()
+
+        def say(body, age_s):
+            guest.publish(f"up.default.nodes.{home}", packed("batcher", 0, 0, body, age_s))
+
+        def known():
+            ((name, _, beacon),) = parse_batch(unpack(guest.message().payload).body)
+            assert name == "batched"
+            return parse(beacon).known.get("batcher")
+
+        say(pack_batch([("unknown", 0, listed(1)), ("batched", 0, listed(1))]), age_s=1.5)
+        assert known() == [1]
+        guest.publish("up.default.batched.control", packed("batcher", 0, 0, listed(1, 2)))
+        say(pack_batch([("batched", 0, listed())]), age_s=1.0)  # overtaken
+        say(b"batched x\n", age_s=0.0)
+        while known() != [1, 2]:
+            pass
 
 
 def test_a_line_for_a_former_home_reaches_no_aircraft(nodes):

@@ -17,7 +17,7 @@ GROUND = messages.ListedGround(3, Access.COMMAND, "ab" * 16, True, False, "10.0.
 
 
 def test_golden_bytes():
-    packed = messages.pack("n1", 12, 1.5, 3, b"x\ny\n")
+    packed = messages.ENVELOPE % (b"n1", 12, 1500, 3, b"x\ny\n")
     assert packed == b"n1 12 1500 3\nx\ny\n"
     assert messages.unpack(packed) == messages.Envelope("n1", 12, 1.5, 3, b"x\ny\n")
     listed = messages.GroundList((GROUND,))
@@ -30,6 +30,9 @@ def test_golden_bytes():
     line = messages.GroundLine("n2", b"UP1 seat listen\n")
     for each in (listed, beacon, line):
         assert messages.parse(each.encode()) == each
+    batch = messages.pack_batch([("a", 7, b"{}"), ("b", 0, b"{}")])
+    assert batch == b"a 7 {}\nb 0 {}\n"
+    assert list(messages.parse_batch(batch)) == [("a", 7, b"{}"), ("b", 0, b"{}")]
     heartbeat = messages.encode_usage(Usage(2, 3, 400))
     assert heartbeat == b'{"aircraft":2,"grounds":3,"hour_bytes":400}'
     assert messages.parse_usage(heartbeat) == Usage(2, 3, 400)
@@ -60,6 +63,16 @@ JSON = st.recursive(
 def test_any_body_is_a_message_or_malformed(body):
     with suppress(messages.MalformedError):
         messages.parse(body).encode()
+
+
+@given(
+    st.binary(max_size=40)
+    | st.lists(st.sampled_from([b"a 1 {}\n", b"a x {}", b"\n"])).map(b"".join)
+)
+def test_any_batch_has_entries_or_is_malformed(body):
+    with suppress(messages.MalformedError):
+        entries = list(messages.parse_batch(body))
+        assert list(messages.parse_batch(messages.pack_batch(entries))) == entries
 
 
 @given(
@@ -100,5 +113,8 @@ def test_the_age_needs_no_common_clock():
         now_s += WINDOW_S + 1
         ages.age_s("n", now_s + 900, now_s)
     assert ages.age_s("n", now_s + 900, now_s) == pytest.approx(0.0)
+    assert not ages.is_older(2.0, "n", now_s + 899, now_s)
+    assert ages.is_older(2.0, "n", now_s + 897, now_s)
     ages.forget(now_s + 2 * WINDOW_S + 1)
     assert len(ages) == 0
+    assert ages.is_older(2.0, "n", now_s + 900, now_s)

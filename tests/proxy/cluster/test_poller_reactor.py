@@ -23,9 +23,10 @@ async def test_a_server_that_does_not_read_gets_all_later_and_in_order():
         endpoint = TCP4ClientEndpoint(own, "127.0.0.1", server.getsockname()[1])
         protocol = await endpoint.connect(Factory.forProtocol(Protocol))
         peer, _ = server.accept()
+    write = own.attach(protocol.transport, lambda _: None)
     early = b""
     for message in MESSAGES:
-        own.write_to(protocol.transport, message)
+        write(message)
         if protocol.transport.dataBuffer:
             # The socket has room again before the reactor writes what waits.
             with suppress(BlockingIOError):
