@@ -3,17 +3,21 @@
 import itertools
 import json
 import math
+import os
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 from bench.cluster_faults import all_relay, cluster, longest_s, reset_gaps
-from bench.relay import Load, tree_cpu_s
+from bench.processes import tree
+from bench.relay import Load, beat, cores, tree_cpu_s
+from bench.relay_load import dial
 from bench.table import Row, compared, limited
 from bench.timing import Limit
 from tests.proxy.cluster.traffic import Traffic
@@ -23,7 +27,7 @@ from tests.support.reactor import run_in_reactor
 from tests.support.reactor import until as until_later
 from tests.support.waiting import until
 
-ROUNDS, QUICK_ROUNDS = 3, 1
+ROUNDS, QUICK_ROUNDS = 5, 1
 SECONDS, QUICK_SECONDS = 3.0, 1.0
 ADDED_P50_US, ADDED_P99_US = 800.0, 3000.0
 CPU_RATIO, CPU_RATIO_WITH_NATS = 2.2, 3.7
@@ -35,25 +39,30 @@ LEASE_S = 10
 ELSEWHERE_S = 15.0
 DEADLINE_S = 60.0
 RATE_HZ = 10
-"""Of each of the 100 pairs: proxies, NATS servers and the load share two cores."""
+"""Of each of the 100 pairs, as of telemetry."""
+IDLE_PAIRS, IDLE_SECONDS, IDLE_SETTLE_S = 500, 10, 6
+"""The leases of one period are written meanwhile."""
 BARE = "a bare Twisted relay on two nodes"
 RUNS = itertools.count()
 """The names of a run are taken for 3 s after it."""
 
 
 def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[Row]:
-    """Yield the hop between two nodes beside pairs of one node, the rounds interleaved."""
+    """Yield the hop between two nodes beside pairs of one node, the rounds interleaved.
+
+    Relays have a core; NATS servers and load have the other one.
+    """
     relays = [program.pid for program in nodes.programs[:2]]
     nats = [process.pid for process in servers.processes]
     local, across, least = [], [], []
-    with bare_relays(servers.ports[:2]) as bare:
+    with bare_relays(servers.ports[:2]) as bare, pinned({0: relays + bare[1], 1: nats}):
         for _ in range(rounds):
             local.append(measure(nodes, 0, 0, relays, nats, seconds))
             across.append(measure(nodes, 0, 1, relays, nats, seconds))
             least.append(round_trips(*bare, nats, seconds))
-    added = [[far[i] - near[i] for near, far in zip(local, across, strict=True)] for i in (0, 1)]
-    yield compared("cluster, added p50 of a round trip", "us", added[0], limit=Limit(ADDED_P50_US))
-    yield compared("cluster, added p99 of a round trip", "us", added[1], limit=Limit(ADDED_P99_US))
+    for i, share, limit in ((0, "p50", ADDED_P50_US), (1, "p99", ADDED_P99_US)):
+        added = [far[i] - near[i] for near, far in zip(local, across, strict=True)]
+        yield compared(f"cluster, added {share} of a line", "us", added, limit=Limit(limit))
     for what, parts, limit in (
         ("relays", slice(2, 3), CPU_RATIO),
         ("relays and NATS servers", slice(2, 4), CPU_RATIO_WITH_NATS),
@@ -79,10 +88,31 @@ def bare_relays(nats_ports: Sequence[int]) -> Iterator[tuple[list[int], list[int
         yield ports, relays
 
 
+@contextmanager
+def pinned(pids: Mapping[int, Iterable[int]]) -> Iterator[None]:
+    """Keep processes on the first (0) or the last core (1) until the end."""
+    every = os.sched_getaffinity(0)
+    try:
+        for which, parents in pids.items():
+            move(parents, {cores()[which]})
+        yield
+    finally:
+        for parents in pids.values():
+            move(parents, every)
+
+
+def move(parents: Iterable[int], allowed: set[int]) -> None:
+    """Let all threads of the processes and of their children run on these cores."""
+    for pid in itertools.chain.from_iterable(map(tree, parents)):
+        for thread in Path(f"/proc/{pid}/task").iterdir():
+            with suppress(ProcessLookupError):
+                os.sched_setaffinity(int(thread.name), allowed)
+
+
 def measure(
     nodes: Any, air: int, ground: int, relays: list[int], nats: list[int], seconds: float
 ) -> tuple[float, float, float, float]:
-    """Return p50 and p99 of the round trip, CPU of relays and of NATS for one; microseconds."""
+    """Return p50 and p99 of one way, CPU of relays and of NATS of a round trip; microseconds."""
     ports = nodes.programs[air].airborne_port, nodes.programs[ground].ground_port
     return round_trips(ports, relays, nats, seconds)
 
@@ -90,7 +120,7 @@ def measure(
 def round_trips(
     ports: Sequence[int], relays: list[int], nats: list[int], seconds: float
 ) -> tuple[float, float, float, float]:
-    more = {"echo": ports[0], "send": ports[1], "rate_hz": RATE_HZ}
+    more = {"echo": ports[0], "send": ports[1], "rate_hz": RATE_HZ, "waits": True}
     load = Load("proxy", seconds, prefix=f"run{next(RUNS)}", **more)
     load.hear("ready")
     load.hear("warm")
@@ -100,7 +130,44 @@ def round_trips(
     load.tell({})
     end = load.hear("count")
     count = end["count"] or math.nan
-    return end["p50_us"], end["p99_us"], used[0] * 1e6 / count, used[1] * 1e6 / count
+    return (
+        end["one_way_p50_us"],
+        end["one_way_p99_us"],
+        used[0] * 1e6 / count,
+        used[1] * 1e6 / count,
+    )
+
+
+def idle_rows(servers: Any, nodes: Any, pairs: int, seconds: int) -> Iterable[Row]:
+    """Yield what pairs cost that only have heartbeats: leases, lists, beacons, checks."""
+    programs = {
+        "relays": [program.pid for program in nodes.programs],
+        "NATS servers": [process.pid for process in servers.processes],
+    }
+    shares: dict[str, dict[str, float]] = {}
+    for where, ground in (("one node", 0), ("two nodes", 1)):
+        ports = nodes.programs[0].airborne_port, nodes.programs[ground].ground_port
+        name = f"idle{next(RUNS)}"
+        ends = []
+        for number in range(pairs):
+            ends.append(dial(ports[0], f"UP1 aircraft={name}-{number}\n"))
+            ends.append(dial(ports[1], f"UP1 aircraft={name}-{number} seat=command\n"))
+        for _ in range(IDLE_SETTLE_S):
+            beat(ends)
+            time.sleep(1.0)
+        begin = {what: sum(map(tree_cpu_s, pids)) for what, pids in programs.items()}
+        for _ in range(seconds):
+            beat(ends)
+            time.sleep(1.0)
+        shares[where] = {
+            what: 100 * (sum(map(tree_cpu_s, pids)) - begin[what]) / seconds / pairs
+            for what, pids in programs.items()
+        }
+        for end in ends:
+            end.close()
+    for what in programs:
+        figure = "; ".join(f"{each[what]:.3f} % on {where}" for where, each in shares.items())
+        yield Row(f"cluster, a pair with heartbeats, {pairs} pairs: CPU of the {what}", figure)
 
 
 def killed_leader_rows(servers: Any, nodes: Any) -> Iterable[Row]:
@@ -158,8 +225,10 @@ def killed_host_rows(instances: int) -> Iterable[Row]:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    with cluster(hosts=0) as (_, servers, nodes):
+    # Each program of the hop has a core, and Go one thread for it.
+    with patch.dict(os.environ, GOMAXPROCS="1"), cluster(hosts=0) as (_, servers, nodes):
         rounds, seconds = (QUICK_ROUNDS, QUICK_SECONDS) if quick else (ROUNDS, SECONDS)
         yield from hop_rows(servers, nodes, rounds, seconds)
+        yield from idle_rows(servers, nodes, *((50, 2) if quick else (IDLE_PAIRS, IDLE_SECONDS)))
         yield from killed_leader_rows(servers, nodes)
     yield from killed_host_rows(QUICK_INSTANCES if quick else INSTANCES)

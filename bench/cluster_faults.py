@@ -130,6 +130,7 @@ async def partition(
         traffic.grounds[begin + len(ways) :],
     )
     await all_relay((*beside, *across))
+    reset_gaps(beside)
     network.isolate(cut)
     began_s = time.monotonic()
     probes = [traffic.add_aircraft(node, f"{cut}-{number}-new{node}") for node in (one, other)]

@@ -2,11 +2,13 @@
 
 Reads one JSON object from stdin: {"mode": "proxy" | "forward" | "direct", "send": port,
 "echo": port, "pairs": n, "rate_hz": r, "seconds": s, "size": bytes}; prints one JSON object with
-the round trips' percentiles in microseconds. `proxy`: both ends dial the relay and say hello;
-`forward`: the relay dials our echo port; `direct`: no relay. With "tls", the path of a folder of
-certificates, both legs are TLS.
+the round trips' percentiles in microseconds, and of `one way`, those from the sending end to the
+echo. `proxy`: both ends dial the relay and say hello; `forward`: the relay dials our echo port;
+`direct`: no relay. With "tls", the path of a folder of certificates, both legs are TLS. With
+"waits" it sleeps between events, for programs that share its core.
 """
 
+import itertools
 import json
 import math
 import os
@@ -74,15 +76,17 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
     return found
 
 
-def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]) -> list[int]:
-    """Send at the requested rate, evenly spread over the pairs; return round trips in ns.
+def measure(
+    job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
+) -> tuple[list[int], list[int]]:
+    """Send at the requested rate, evenly spread over the pairs; return round trips, one way; ns.
 
     On a machine that is too busy for any there are none.
     """
     poll = select.epoll()
-    echoes = {echo.fileno(): echo for _, echo in ends}
+    echoes = {echo.fileno(): (echo, send.fileno()) for send, echo in ends}
     senders = {send.fileno(): send for send, _ in ends}
-    for each in (*echoes.values(), *senders.values()):
+    for each in itertools.chain(*ends):
         each.setblocking(False)
         poll.register(each.fileno(), select.EPOLLIN)
     time.sleep(0.2)
@@ -96,6 +100,7 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
     line = b"x" * (job["size"] - 1) + b"\n"
     sent_ns = dict.fromkeys(senders, 0)
     trips: list[int] = []
+    ways: list[int] = []
     step_ns = int(1e9 / (job["rate_hz"] * len(order)))
     begin_ns = time.perf_counter_ns()
     warm_ns = begin_ns + int(WARM_UP_S * 1e9)
@@ -106,7 +111,7 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
     while True:
         now_ns = clock()
         if now_ns >= end_ns and (len(trips) >= MIN_TRIPS or now_ns >= limit_ns):
-            return trips
+            return trips, ways
         if not warm and now_ns >= warm_ns:
             warm = True
             print(json.dumps({"warm": True}), flush=True)
@@ -117,11 +122,17 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
             if not sent_ns[peer.fileno()]:
                 sent_ns[peer.fileno()] = clock()
                 peer.send(line)
+        if job.get("waits"):  # epoll's own timeout is in milliseconds
+            select.select((poll,), (), (), max(0, due_ns - clock()) / 1e9)
         for descriptor, _ in poll.poll(0):
             echo = echoes.get(descriptor)
             try:
                 if echo is not None:
-                    echo.send(echo.recv(65536))
+                    end, sender = echo
+                    data = end.recv(65536)
+                    if sent_ns[sender] > warm_ns:
+                        ways.append(clock() - sent_ns[sender])
+                    end.send(data)
                     continue
                 answer = senders[descriptor].recv(65536)
             except _NOT_READY:
@@ -132,21 +143,30 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
                 sent_ns[descriptor] = 0
 
 
+def at_share(ordered_ns: list[int], share: float) -> float:
+    """Return a percentile in microseconds; NaN of none."""
+    if not ordered_ns:
+        return math.nan
+    return ordered_ns[min(int(len(ordered_ns) * share), len(ordered_ns) - 1)] / 1e3
+
+
 def main() -> None:
     job = json.loads(sys.stdin.readline())
     if "cpu" in job:
         os.sched_setaffinity(0, {job["cpu"]})
     ends = pairs(job)
     print(json.dumps({"ready": True}), flush=True)
-    trips = sorted(measure(job, ends))
+    trips, ways = map(sorted, measure(job, ends))
     print(json.dumps({"done": True}), flush=True)
     sys.stdin.readline()  # the connections stay until the relay's CPU time is read
     count = len(trips)
     figures = {
         "count": count,
-        "p50_us": trips[count // 2] / 1e3 if trips else math.nan,
-        "p99_us": trips[count * 99 // 100] / 1e3 if trips else math.nan,
-        "longest_us": trips[-1] / 1e3 if trips else math.nan,
+        "p50_us": at_share(trips, 0.5),
+        "p99_us": at_share(trips, 0.99),
+        "longest_us": at_share(trips, 1.0),
+        "one_way_p50_us": at_share(ways, 0.5),
+        "one_way_p99_us": at_share(ways, 0.99),
     }
     print(json.dumps(figures), flush=True)
 
