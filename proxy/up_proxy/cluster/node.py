@@ -182,10 +182,16 @@ class ClusterNode:
     def _take_batch(self, message: Envelope) -> None:
         try:
             for aircraft, fence, body in parse_batch(message.body):
-                if (session := self._sessions.get(aircraft)) is not None:
-                    session.on_batched(message._replace(fence=fence, body=body))
+                self._take_state(aircraft, message._replace(fence=fence, body=body))
         except MalformedError:
             self._malformed += 1
+
+    def _take_state(self, aircraft: str, message: Envelope) -> None:
+        if (session := self._sessions.get(aircraft)) is not None:
+            try:
+                session.on_batched(message)
+            except MalformedError:  # it costs no other aircraft
+                self._malformed += 1
 
     def subscribe(
         self,

@@ -195,7 +195,8 @@ def test_lists_and_beacons_are_repeated_in_batches(nodes):
             assert name == "batched"
             return parse(beacon).known.get("batcher")
 
-        say(pack_batch([("unknown", 0, listed(1)), ("batched", 0, listed(1))]), age_s=1.5)
+        entries = ("unknown", 0, listed(1)), ("batched", 0, b"nonsense"), ("batched", 0, listed(1))
+        say(pack_batch(entries), age_s=1.5)
         assert known() == [1]
         guest.publish("up.default.batched.control", packed("batcher", 0, 0, listed(1, 2)))
         say(pack_batch([("batched", 0, listed())]), age_s=1.0)  # overtaken
