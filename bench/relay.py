@@ -37,7 +37,6 @@ PAIR_BYTES_TARGET = 2048
 MANY_PAIRS = 5000
 MANY_PAIRS_TARGET = Limit(15.0)
 STALL_MB_TARGET = 5.0
-LOAD = Path(__file__).with_name("relay_load.py")
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,8 +106,9 @@ class Load:
                "rate_hz": RATE_HZ, "seconds": seconds,
                "size": SIZE, "cpu": cores()[1], "echo": 0, **more}  # fmt: skip
         self._process = subprocess.Popen(
-            [sys.executable, str(LOAD)], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
-        )
+            [sys.executable, "-m", "bench.relay_load"],
+            text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        )  # fmt: skip
         self.tell(job)
 
     def tell(self, what: object) -> None:

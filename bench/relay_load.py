@@ -10,7 +10,6 @@ echo. `proxy`: both ends dial the relay and say hello; `forward`: the relay dial
 
 import itertools
 import json
-import math
 import os
 import select
 import socket
@@ -20,6 +19,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from bench.timing import percentile
 from up.tls.files import TLSFiles
 
 WARM_UP_S = 1.0
@@ -143,13 +143,6 @@ def measure(
                 sent_ns[descriptor] = 0
 
 
-def at_share(ordered_ns: list[int], share: float) -> float:
-    """Return a percentile in microseconds; NaN of none."""
-    if not ordered_ns:
-        return math.nan
-    return ordered_ns[min(int(len(ordered_ns) * share), len(ordered_ns) - 1)] / 1e3
-
-
 def main() -> None:
     job = json.loads(sys.stdin.readline())
     if "cpu" in job:
@@ -159,14 +152,13 @@ def main() -> None:
     trips, ways = map(sorted, measure(job, ends))
     print(json.dumps({"done": True}), flush=True)
     sys.stdin.readline()  # the connections stay until the relay's CPU time is read
-    count = len(trips)
     figures = {
-        "count": count,
-        "p50_us": at_share(trips, 0.5),
-        "p99_us": at_share(trips, 0.99),
-        "longest_us": at_share(trips, 1.0),
-        "one_way_p50_us": at_share(ways, 0.5),
-        "one_way_p99_us": at_share(ways, 0.99),
+        "count": len(trips),
+        "p50_us": percentile(trips, 0.5) / 1e3,
+        "p99_us": percentile(trips, 0.99) / 1e3,
+        "longest_us": percentile(trips, 1.0) / 1e3,
+        "one_way_p50_us": percentile(ways, 0.5) / 1e3,
+        "one_way_p99_us": percentile(ways, 0.99) / 1e3,
     }
     print(json.dumps(figures), flush=True)
 

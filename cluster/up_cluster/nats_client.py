@@ -262,6 +262,7 @@ class NatsLink(Protocol):
     """One connection to a server: INFO, CONNECT, then messages until it is lost."""
 
     transport: Any
+    write: Callable[[bytes], None]
 
     def __init__(self, client: NatsClient, clock: Clock, server: str) -> None:
         self._client = client
@@ -272,7 +273,6 @@ class NatsLink(Protocol):
         self._last_rx_s = 0.0
         self._is_ready = False
         self.is_paused = False
-        self.write: Callable[[bytes], None] = lambda _: None
         self._data: deque[bytes] = deque()
         self._data_bytes = 0
         self._failed: tuple[str, str] | None = None

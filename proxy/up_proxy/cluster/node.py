@@ -3,7 +3,6 @@
 import socket
 from collections import Counter
 from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -59,7 +58,7 @@ class ClusterNode:
         self._poller = poller
         self.quota = quota
         self._sessions: dict[str, ClusterSession] = {}
-        self.batches = StateBatches(poller, self._send_batch)
+        self.batches = StateBatches(reactor, self._send_batch)
         self._member = Membership(
             reactor,
             config,
@@ -71,7 +70,7 @@ class ClusterNode:
         self._member.on_connected = self._on_connected
         self._member.on_ready = self._on_ready
         self.id = self._member.id
-        self._word = self.id.encode("ascii")
+        self._id_bytes = self.id.encode("ascii")
         self._member.actions.update(
             report=self._report, drain=self._on_drain_request, kick=self._kick
         )
@@ -93,7 +92,7 @@ class ClusterNode:
 
     def start(self) -> None:
         self.subscribe(self._member.subject("nodes"), self._on_heartbeat)
-        self.subscribe(self._batch_subject(self.id), self._on_batch)
+        self.subscribe(self._batch_subject(self.id), self._take_batch)
         self._member.start()
         self._beat()
 
@@ -167,7 +166,7 @@ class ClusterNode:
 
     def send(self, subject: str, fence: int, ground: int, body: bytes) -> None:
         sent_ms = int(self._reactor.seconds() * 1000)
-        self._client.publish(subject, ENVELOPE % (self._word, fence, sent_ms, ground, body))
+        self._client.publish(subject, ENVELOPE % (self._id_bytes, fence, sent_ms, ground, body))
 
     def _send_batch(self, node: str, body: bytes) -> None:
         self.send(self._batch_subject(node), 0, 0, body)
@@ -175,16 +174,9 @@ class ClusterNode:
     def _batch_subject(self, node: str) -> str:
         return self._member.subject(f"nodes.{node}")
 
-    def _on_batch(self, message: Envelope) -> None:
-        # NATS delivers several at once, and relayed lines would wait behind them.
-        self._poller.do_later(partial(self._take_batch, message))
-
     def _take_batch(self, message: Envelope) -> None:
-        try:
-            for aircraft, fence, body in parse_batch(message.body):
-                self._take_state(aircraft, message._replace(fence=fence, body=body))
-        except MalformedError:
-            self._malformed += 1
+        for aircraft, fence, body in parse_batch(message.body):
+            self._take_state(aircraft, message._replace(fence=fence, body=body))
 
     def _take_state(self, aircraft: str, message: Envelope) -> None:
         if (session := self._sessions.get(aircraft)) is not None:

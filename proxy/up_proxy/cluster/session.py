@@ -188,9 +188,6 @@ class ClusterSession(AircraftSession):
             "control": None if control.state(now_s) is State.FREE else control.token,
         }
 
-    def _start_write(self) -> None:
-        Deferred.fromCoroutine(self._write_changes()).addErrback(_ignore_unavailable)
-
     async def _write_changes(self) -> None:
         async with self.changes:
             if self.lease is not None and self._data() != self.lease.data:
@@ -372,8 +369,10 @@ class ClusterSession(AircraftSession):
             return
         self._remotes.expire(now_s)
         super().sweep()
-        if not self.changes.locked and self._data() != self.lease.data:
-            self._poller.do_later(self._start_write)
+        if self.is_deserted(now_s) or self.changes.locked:
+            return  # it is about to be released, or written
+        if self._data() != self.lease.data:
+            Deferred.fromCoroutine(self._write_changes()).addErrback(_ignore_unavailable)
 
     def kick(self) -> None:
         """End the connections of the aircraft, and free its name and its control."""

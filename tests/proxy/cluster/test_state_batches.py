@@ -1,7 +1,8 @@
 """States of aircraft, in batches to the nodes."""
 
-from collections import deque
 from types import SimpleNamespace
+
+from twisted.internet.task import Clock
 
 from up_proxy.cluster.node_messages import parse_batch
 from up_proxy.cluster.state_batches import SIZE, StateBatches
@@ -12,23 +13,28 @@ class Aircraft(SimpleNamespace):
         return self.fence, f'"{node}"'.encode()
 
 
-def test_each_state_is_sent_once_to_each_of_its_nodes_as_it_is_then():
-    steps, sent = deque(), []
-    batches = StateBatches(
-        SimpleNamespace(do_later=steps.append), lambda node, body: sent.append((node, body))
-    )
-    aircraft = [Aircraft(name=f"a{number}", fence=0) for number in range(2 * SIZE + 3)]
-    for round_ in (1, 2):
+def test_each_state_is_sent_once_to_each_of_its_nodes():
+    clock, sent = Clock(), []
+    batches = StateBatches(clock, lambda node, body: sent.append((node, body)))
+    for fence in (1, 2):
+        aircraft = [Aircraft(name=f"a{number}", fence=fence) for number in range(2 * SIZE + 3)]
         for each in aircraft:
             batches.add("one", each)
         batches.add("two", aircraft[0])
-        for each in aircraft:
-            each.fence = round_
-        while steps:
-            assert len(steps) == 1
-            steps.popleft()()
+        assert len(sent) == 2 and len(clock.getDelayedCalls()) == 1
+        clock.advance(0)
         heard = [(node, *state) for node, body in sent for state in parse_batch(body)]
-        expected = [("one", each.name, round_, b'"one"') for each in aircraft]
-        assert sorted(heard) == sorted([*expected, ("two", "a0", round_, b'"two"')])
+        expected = [("one", each.name, fence, b'"one"') for each in aircraft]
+        assert heard == [*expected, ("two", "a0", fence, b'"two"')]
         assert len(sent) == 4
         sent.clear()
+
+
+def test_a_state_is_that_of_its_sending():
+    clock, sent = Clock(), []
+    batches = StateBatches(clock, lambda node, body: sent.append(body))
+    aircraft = Aircraft(name="a", fence=1)
+    batches.add("one", aircraft)
+    aircraft.fence = 2
+    clock.advance(0)
+    assert sent == [b'a 2 "one"\n']
