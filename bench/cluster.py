@@ -1,14 +1,11 @@
 """Three proxies on three NATS servers: the hop between nodes, the loss of a leader or a host."""
 
 import itertools
-import json
 import math
 import os
-import subprocess
-import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -16,7 +13,7 @@ from unittest.mock import patch
 
 from bench.cluster_faults import all_relay, cluster, longest_s, reset_gaps
 from bench.processes import tree
-from bench.relay import Load, beat, cores, tree_cpu_s
+from bench.relay import RATE_HZ, Load, beat, cores, tree_cpu_s
 from bench.relay_load import dial
 from bench.table import Row, compared, limited
 from bench.timing import Limit
@@ -38,11 +35,11 @@ LEASE_S = 10
 """The default of `runner.yml: pool: lease`."""
 ELSEWHERE_S = 15.0
 DEADLINE_S = 60.0
-RATE_HZ = 10
-"""Of each of the 100 pairs, as of telemetry."""
+FULL = "full load"
+LOADS = {"10 lines/s": 10, f"{RATE_HZ} lines/s": RATE_HZ, FULL: 1000}
+"""Round trips a second of each of the 100 pairs; the last is more than the relays can do."""
 IDLE_PAIRS, IDLE_SECONDS, IDLE_SETTLE_S = 500, 10, 6
 """The leases of one period are written meanwhile."""
-BARE = "a bare Twisted relay on two nodes"
 RUNS = itertools.count()
 """The names of a run are taken for 3 s after it."""
 
@@ -54,38 +51,26 @@ def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[
     """
     relays = [program.pid for program in nodes.programs[:2]]
     nats = [process.pid for process in servers.processes]
-    local, across, least = [], [], []
-    with bare_relays(servers.ports[:2]) as bare, pinned({0: relays + bare[1], 1: nats}):
+    local, across = ({load: [] for load in LOADS} for _ in range(2))
+    with pinned({0: relays, 1: nats}):
         for _ in range(rounds):
-            local.append(measure(nodes, 0, 0, relays, nats, seconds))
-            across.append(measure(nodes, 0, 1, relays, nats, seconds))
-            least.append(round_trips(*bare, nats, seconds))
-    for i, share, limit in ((0, "p50", ADDED_P50_US), (1, "p99", ADDED_P99_US)):
-        added = [far[i] - near[i] for near, far in zip(local, across, strict=True)]
-        yield compared(f"cluster, added {share} of a line", "us", added, limit=Limit(limit))
-    for what, parts, limit in (
-        ("relays", slice(2, 3), CPU_RATIO),
-        ("relays and NATS servers", slice(2, 4), CPU_RATIO_WITH_NATS),
-    ):
-        far, near = ([sum(run[parts]) for run in runs] for runs in (across, local))
-        name = f"cluster, CPU of a round trip, {what}"
-        yield compared(name, "us", far, "pairs of one node", near, Limit(limit))
-        yield compared(name, "us", far, BARE, [sum(run[parts]) for run in least])
-
-
-@contextmanager
-def bare_relays(nats_ports: Sequence[int]) -> Iterator[tuple[list[int], list[int]]]:
-    """Run two bare relays; yield the port of aircraft at one, of grounds at the other, and pids."""
-    with ExitStack() as stack:
-        relays, ports = [], []
-        for side, port in enumerate(nats_ports):
-            command = [sys.executable, "-m", "bench.cluster_peer", str(port)]
-            relay = stack.enter_context(subprocess.Popen(command, stdout=subprocess.PIPE))
-            stack.callback(relay.kill)
-            relays.append(relay.pid)
-            assert relay.stdout is not None
-            ports.append(json.loads(relay.stdout.readline())[side])
-        yield ports, relays
+            for load, rate_hz in LOADS.items():
+                local[load].append(round_trips(nodes, 0, 0, rate_hz, relays, nats, seconds))
+                across[load].append(round_trips(nodes, 0, 1, rate_hz, relays, nats, seconds))
+    for load in LOADS:
+        near, far = local[load], across[load]
+        if load != FULL:  # there a line waits for those of all other pairs
+            for i, share, limit in ((0, "p50", ADDED_P50_US), (1, "p99", ADDED_P99_US)):
+                added = [each[i] - least[i] for least, each in zip(near, far, strict=True)]
+                what = f"cluster, {load}: added {share} of a line"
+                yield compared(what, "us", added, limit=Limit(limit))
+        for what, parts, limit in (
+            ("relays", slice(2, 3), CPU_RATIO),
+            ("relays and NATS servers", slice(2, 4), CPU_RATIO_WITH_NATS),
+        ):
+            ours, least_us = ([sum(run[parts]) for run in runs] for runs in (far, near))
+            name = f"cluster, {load}: CPU of a round trip, {what}"
+            yield compared(name, "us", ours, "pairs of one node", least_us, Limit(limit))
 
 
 @contextmanager
@@ -109,18 +94,18 @@ def move(parents: Iterable[int], allowed: set[int]) -> None:
                 os.sched_setaffinity(int(thread.name), allowed)
 
 
-def measure(
-    nodes: Any, air: int, ground: int, relays: list[int], nats: list[int], seconds: float
+def round_trips(
+    nodes: Any,
+    air: int,
+    ground: int,
+    rate_hz: int,
+    relays: list[int],
+    nats: list[int],
+    seconds: float,
 ) -> tuple[float, float, float, float]:
     """Return p50 and p99 of one way, CPU of relays and of NATS of a round trip; microseconds."""
     ports = nodes.programs[air].airborne_port, nodes.programs[ground].ground_port
-    return round_trips(ports, relays, nats, seconds)
-
-
-def round_trips(
-    ports: Sequence[int], relays: list[int], nats: list[int], seconds: float
-) -> tuple[float, float, float, float]:
-    more = {"echo": ports[0], "send": ports[1], "rate_hz": RATE_HZ, "waits": True}
+    more = {"echo": ports[0], "send": ports[1], "rate_hz": rate_hz, "waits": True}
     load = Load("proxy", seconds, prefix=f"run{next(RUNS)}", **more)
     load.hear("ready")
     load.hear("warm")

@@ -90,6 +90,8 @@ class NatsClient:
         self._link: NatsLink | None = None
         self._attempted: NatsLink | None = None
         self._subscriptions: dict[int, tuple[str, OnMessage]] = {}
+        self.payloads: dict[bytes, Callable[[bytes], object]] = {}
+        """As the parser reads it, of `subscribe_payloads`."""
         self._next_sid = 1
         self._inbox = f"_INBOX.{secrets.token_hex(8)}"
         self._next_request = 0
@@ -136,9 +138,16 @@ class NatsClient:
             self._link.send(line)
         return sid
 
+    def subscribe_payloads(self, subject: str, on_payload: Callable[[bytes], object]) -> int:
+        """As `subscribe`, in fewer calls, for a callback that raises nothing."""
+        sid = self.subscribe(subject, lambda message: on_payload(message.payload))
+        self.payloads[b"%d" % sid] = on_payload
+        return sid
+
     def unsubscribe(self, sid: int) -> None:
         """End a subscription. Raises KeyError for an unknown handle."""
         del self._subscriptions[sid]
+        self.payloads.pop(b"%d" % sid, None)
         if self._link is not None:
             self._link.send(nats.unsubscribe(sid))
 
@@ -268,7 +277,7 @@ class NatsLink(Protocol):
         self._client = client
         self._clock = clock
         self._seconds = clock.seconds
-        self._parser = nats.NatsParser()
+        self._parser = nats.NatsParser(client.payloads)
         self._ping: Timer | None = None
         self._last_rx_s = 0.0
         self._is_ready = False
@@ -311,7 +320,7 @@ class NatsLink(Protocol):
 
     def send(self, frame: bytes) -> None:
         """Send a frame that is never dropped."""
-        self.transport.write(frame)
+        self.write(frame)
 
     def keep(self, frame: bytes) -> int:
         """Keep a message for a slow server; return how many older ones were dropped."""

@@ -5,7 +5,7 @@ https://docs.nats.io/reference/reference-protocols/nats-protocol
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -18,8 +18,7 @@ PING, PONG = b"PING\r\n", b"PONG\r\n"
 _SUBJECT = re.compile(r"[!-~]+", re.ASCII)
 _STATUS = re.compile(r"NATS/1\.0(?: ([0-9]{3})(?: (.*))?)?", re.ASCII)
 _NUMBER = re.compile(rb"[0-9]{1,10}")
-_SHORT = len(b"MSG  0123456789 0123456789") + 1
-"""One more than the bytes of a MSG, its subject and a reply left out."""
+_SIZE_DIGITS = len(str(MAX_MESSAGE_BYTES))
 
 
 class NatsProtocolError(ValueError):
@@ -64,13 +63,19 @@ Event = Message | Info | Failed | Ping | Pong
 
 
 class NatsParser:
-    """Splits a server's bytes into events; keeps at most one incomplete message."""
+    """Splits a server's bytes into events; keeps at most one incomplete message.
 
-    def __init__(self) -> None:
+    `payloads`: what takes the payload of a MSG without a reply, by the bytes of its sid. Such a
+    message is no event.
+    """
+
+    def __init__(self, payloads: Mapping[bytes, Callable[[bytes], object]] | None = None) -> None:
+        self._payloads = {} if payloads is None else payloads
         self._buffer = b""
 
     def feed(self, data: bytes) -> Iterator[Event]:
         """Yield the events that `data` completes. Raises NatsProtocolError; then it is useless."""
+        payloads = self._payloads
         buffer = self._buffer + data if self._buffer else data
         at = 0
         try:
@@ -82,24 +87,16 @@ class NatsParser:
                     break
                 at_payload = end + 2
                 if line[:4] == b"MSG ":
-                    # Without a reply: the path of every relayed line.
+                    # The path of every relayed line: avoid every unnecessary call.
                     words = line.split(b" ")
-                    numbers = words[2:]
-                    if (
-                        len(numbers) == 2
-                        and len(line) - len(words[1]) < _SHORT
-                        and numbers[0].isdigit()
-                        and numbers[1].isdigit()
-                    ):
-                        stop = at_payload + int(numbers[1])
-                        if buffer[stop : stop + 2] == b"\r\n":
-                            at = stop + 2
-                            subject = words[1].decode("utf-8", "replace")
-                            payload = buffer[at_payload:stop]
-                            fields = subject, int(numbers[0]), "", b"", payload
-                            # Without the call that a NamedTuple makes in Python.
-                            yield tuple.__new__(Message, fields)
-                            continue
+                    if len(words) == 4 and (take := payloads.get(words[2])) is not None:
+                        size = words[3]
+                        if len(size) <= _SIZE_DIGITS and size.isdigit():
+                            stop = at_payload + int(size)
+                            if buffer[stop : stop + 2] == b"\r\n":
+                                at = stop + 2
+                                take(buffer[at_payload:stop])
+                                continue
                     words = line.split()
                     sizes = words[-1:]
                 elif line[:5] == b"HMSG ":

@@ -1,6 +1,6 @@
 """One aircraft by name: its airborne connection, its grounds, the two leases."""
 
-from collections.abc import Iterable
+from collections.abc import Collection
 
 from up.log import Limited, UpLogger
 from up.protocols.binary_line import PACKED
@@ -89,7 +89,7 @@ class AircraftSession(Owner):
             self.dropped_lines += before - lines.count(b"\n")
             if not lines:
                 return
-        self.dropped_lines += relay_to_all(self.grounds.connections, lines)
+        self.dropped_lines += relay_to_all(self.grounds.receivers, lines)
 
     def on_drained(self, connection: Connection) -> None:
         if self.air_lease.owner is connection:
@@ -183,11 +183,13 @@ class AircraftSession(Owner):
             ground.resume()
 
 
-def relay_to_all(grounds: Iterable[Connection], lines: bytes) -> int:
+def relay_to_all(grounds: Collection[Connection], lines: bytes) -> int:
     """Send lines of an aircraft; return how many old ones were dropped to make room.
 
     Packed lines go to the grounds that read them.
     """
+    if not grounds:
+        return 0
     plain = lines if _PACKED not in lines else without(_PACKED, lines)
     dropped = 0
     for ground in grounds:

@@ -38,7 +38,7 @@ class GroundSide(Owner):
     `connections` is replaced, never changed in place, so that iteration over it stays valid.
     """
 
-    __slots__ = ("_aircraft", "_next_number", "_poller", "connections", "lease")
+    __slots__ = ("_aircraft", "_next_number", "_poller", "connections", "lease", "receivers")
 
     def __init__(self, aircraft: "AircraftSession", poller: Poller) -> None:
         self._aircraft = aircraft
@@ -46,13 +46,19 @@ class GroundSide(Owner):
         self._next_number = 1
         self.lease: ControlLease[Connection] = ControlLease()
         self.connections: tuple[Connection, ...] = ()
+        self.receivers: tuple[Connection, ...] = ()
+        """Those that the aircraft's lines are sent to from here."""
+
+    def replace(self, connections: tuple[Connection, ...]) -> None:
+        """Replace the connections."""
+        self.connections = self.receivers = connections
 
     def admit(self, ground: Connection, access: Access | None, token: str | None) -> Access:
         """Add a ground and return its access; a resume token gains control immediately."""
         ground.owner = self
         ground.number = self._next_number
         self._next_number += 1
-        self.connections = (*self.connections, ground)
+        self.replace((*self.connections, ground))
         self._aircraft.report_watchers()
         lease = self.lease
         if access is not Access.COMMAND:
@@ -87,7 +93,7 @@ class GroundSide(Owner):
 
     def on_end(self, connection: Connection, reason: str) -> None:
         """Reserve the owner's lease for its token; a legacy client has none and frees it."""
-        self.connections = tuple(each for each in self.connections if each is not connection)
+        self.replace(tuple(each for each in self.connections if each is not connection))
         self._aircraft.report_watchers()
         if self.lease.owner is connection:
             self.lease.disconnect()

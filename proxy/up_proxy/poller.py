@@ -21,6 +21,8 @@ PAUSED = select.EPOLLRDHUP
 """Does not read, but detects a closed peer."""
 
 _BATCH = 256
+_GATHERED = 32
+"""Events whose writes to one socket leave together; more would keep the first ones too long."""
 BUSY_POLL_S = 0.01
 """Longer than a tick of the kernel: a shorter timeout would cost a timer interrupt per line."""
 _log = UpLogger.get_logger("proxy")
@@ -51,6 +53,9 @@ class Poller:
         self._ending: list[Handler] = []
         self._steps: deque[Callable[[], None]] = deque()
         self._again: Timer | None = None
+        self._flushes: list[Callable[[], None]] = []
+        self.gathers = False
+        """True while several events are handled."""
         self.busy_poll_s = BUSY_POLL_S
         self.now_s = seconds()
 
@@ -89,6 +94,10 @@ class Poller:
         self._steps.append(step)
         self._come_back()
 
+    def flush_later(self, flush: Callable[[], None]) -> None:
+        """Call `flush` after the current events, 32 at most; for use while `gathers`."""
+        self._flushes.append(flush)
+
     def seconds(self) -> float:
         return self.now_s
 
@@ -122,7 +131,7 @@ class Poller:
         while events or self._steps:
             self._handle(events)
             if self._steps:
-                self._take_step()
+                self._call(self._steps.popleft())
             if self.now_s >= leave_s:
                 break
             events = poll(0 if self._steps else self.busy_poll_s, _BATCH)
@@ -137,23 +146,28 @@ class Poller:
         self._again = None
         self.doRead()
 
-    def _take_step(self) -> None:
+    def _call(self, step: Callable[[], None]) -> None:
         try:
-            self._steps.popleft()()
+            step()
         except Exception:  # noqa: BLE001 - as in _handle
-            _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
+            _log.failure("a step failed on a bug of the proxy", code="proxy_bug")
 
     def _handle(self, events: list[tuple[int, int]]) -> None:
         handlers = self._handlers
         self.now_s = self._seconds()
-        for descriptor, what in events:
-            handler = handlers.get(descriptor)
-            if handler is None:
-                continue
-            try:
-                handler.on_ready(what)
-            except Exception:  # noqa: BLE001 - a bug costs one connection, never the relay
-                _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
-                handler.fail("internal error")
+        self.gathers = len(events) > 1
+        for at in range(0, len(events), _GATHERED):
+            for descriptor, what in events[at : at + _GATHERED]:
+                handler = handlers.get(descriptor)
+                if handler is None:
+                    continue
+                try:
+                    handler.on_ready(what)
+                except Exception:  # noqa: BLE001 - a bug costs one connection, never the relay
+                    _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
+                    handler.fail("internal error")
+            while self._flushes:
+                self._call(self._flushes.pop())
+        self.gathers = False
         if self._ending:
             self.reap()

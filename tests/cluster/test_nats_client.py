@@ -69,3 +69,19 @@ def test_nothing_waits_for_a_connection():
     client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 4222)], name="test")
     client.publish("data", b"old")
     assert client.dropped == 1
+
+
+def test_payloads_of_a_subscription_until_its_end_and_from_the_next_server():
+    _, client, link, _ = linked()
+    heard = []
+    sid = client.subscribe_payloads("data", heard.append)
+    message = b"MSG data %d 2\r\nab\r\n" % sid
+    link.dataReceived(message + b"MSG data %d _INBOX.1 3\r\nask\r\n" % sid)
+    assert heard == [b"ab", b"ask"]
+    following = client._build()
+    following.makeConnection(Transport("127.0.0.1"))
+    following.dataReceived(INFO + nats_protocol.PONG + message)
+    assert heard == [b"ab", b"ask", b"ab"]
+    client.unsubscribe(sid)
+    following.dataReceived(message)
+    assert heard == [b"ab", b"ask", b"ab"]

@@ -27,19 +27,29 @@ EVENTS = [
 ]
 
 
-@given(st.lists(st.integers(0, len(GOLDEN)), max_size=8))
-def test_golden_bytes_in_any_pieces(cuts):
-    parser = nats.NatsParser()
+@given(st.lists(st.integers(0, len(GOLDEN)), max_size=8), st.booleans())
+def test_golden_bytes_in_any_pieces(cuts, takes_payloads):
+    taken = []
+    # Of sid 8 the message has a reply, of sid 9 a header: both stay events.
+    payloads = dict.fromkeys((b"7", b"8", b"9"), taken.append) if takes_payloads else {}
+    parser = nats.NatsParser(payloads)
     edges = [0, *sorted(cuts), len(GOLDEN)]
     found = []
     for begin, end in pairwise(edges):
         found += parser.feed(GOLDEN[begin:end])
-    assert found == EVENTS
+    assert taken == [b"a\r\nbc"] * takes_payloads
+    assert found == EVENTS[:3] + EVENTS[3:4] * (not takes_payloads) + EVENTS[4:]
 
 
-@given(st.lists(st.binary(max_size=200), max_size=20))
+@given(
+    st.lists(
+        st.binary(max_size=200)
+        | st.binary(max_size=20).map(lambda size: b"MSG a 1 %b\r\nab\r\n" % size),
+        max_size=20,
+    )
+)
 def test_any_bytes_are_events_or_a_code(pieces):
-    parser = nats.NatsParser()
+    parser = nats.NatsParser({b"1": lambda payload: None})
     try:
         for piece in pieces:
             list(parser.feed(piece))
@@ -56,15 +66,17 @@ def test_any_bytes_are_events_or_a_code(pieces):
         (b"MSG a 1 -1\r\n", "nats_malformed"),
         (b"HMSG a 1 5 4\r\n", "nats_malformed"),
         (b"MSG a 1 3\r\nabcd\r\n", "nats_malformed"),
+        (b"MSG a 1 %b\r\n" % (b"9" * 5000), "nats_malformed"),
         (b"INFO [1]\r\n", "nats_malformed"),
         (b"HELLO\r\n", "nats_malformed"),
         (b"MSG a 1 9999999999\r\n", "nats_too_long"),
         (b"x" * (nats.MAX_LINE_BYTES + 1), "nats_too_long"),
     ],
 )
-def test_malformed_lines(line, code):
+@pytest.mark.parametrize("payloads", [{}, {b"1": pytest.fail}], ids=["messages", "payloads"])
+def test_malformed_lines(line, code, payloads):
     with pytest.raises(nats.NatsProtocolError) as caught:
-        list(nats.NatsParser().feed(line))
+        list(nats.NatsParser(payloads).feed(line))
     assert caught.value.code == code
 
 

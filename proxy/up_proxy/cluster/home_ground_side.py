@@ -8,6 +8,7 @@ from up.log import UpLogger
 from up.protocols.proxy_lines import CLUSTER, Access, ControlRelease, GroundLine
 from up_cluster.errors import RefusedError, UnavailableError
 from up_cluster.lease import LeaseLostError
+from up_proxy.cluster.remote_ground import RemoteGround
 from up_proxy.connection import Connection
 from up_proxy.ground_side import GroundSide
 from up_proxy.poller import Poller
@@ -28,6 +29,10 @@ class HomeGroundSide(GroundSide):
         self._session = session
         self.granting: Connection | None = None
         """The ground whose grant is being written; others wait until they request again."""
+
+    def replace(self, connections: tuple[Connection, ...]) -> None:
+        super().replace(connections)
+        self.receivers = tuple(each for each in connections if not isinstance(each, RemoteGround))
 
     def admit(self, ground: Connection, access: Access | None, token: str | None) -> Access:
         if access is Access.COMMAND and (

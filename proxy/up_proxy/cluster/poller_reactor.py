@@ -13,13 +13,15 @@ from up_proxy.poller import READ, WRITE, Poller
 
 _BROKEN = select.EPOLLHUP | select.EPOLLERR
 _READ_BYTES = 65536
+_GATHERED_BYTES = 16384
+"""A larger write does not wait for others: a slow peer must be noticed before more is written."""
 
 
 class PollerReactor:
     """The reactor, except that the poller waits for its connections.
 
     The poller works for up to 20 ms before the reactor looks at its own sockets. Data are sent
-    when they are written, not in the next round.
+    when they are written, or after at most 31 other events, not in the next round.
     """
 
     def __init__(self, reactor: Any, poller: Poller) -> None:
@@ -63,14 +65,14 @@ class PollerReactor:
     def attach(self, transport: Any, on_data: Callable[[bytes], object]) -> Callable[[bytes], None]:
         """Hand what a transport receives to `on_data`, and return what writes to it.
 
-        Both without Twisted's buffers while nothing waits in them.
+        Both without Twisted's buffers while nothing waits in them. What several events write of
+        one moment leaves together.
         """
         handler = self._handlers.get(transport)
         if handler is None:  # TLS
-            write: Callable[[bytes], None] = transport.write
-            return write
+            return _Gathering(self._poller, transport.write).send
         handler.on_data = on_data
-        return handler.send
+        return _Gathering(self._poller, handler.send).send
 
     def removeWriter(self, descriptor: Any) -> None:  # noqa: N802 - Twisted's name
         self._change(descriptor, 0, WRITE)
@@ -94,6 +96,34 @@ class PollerReactor:
         elif handler.events != handler.watched:
             handler.watched = handler.events
             self._poller.change(handler.fileno, handler.events)
+
+
+class _Gathering:
+    """Joins what several events of one moment write: one call of the system for all of it.
+
+    The order of the writes is kept.
+    """
+
+    def __init__(self, poller: Poller, write: Callable[[bytes], None]) -> None:
+        self._poller = poller
+        self._write = write
+        self._waiting: list[bytes] = []
+
+    def send(self, data: bytes) -> None:
+        """Write now, or a moment later if there are several events."""
+        if not self._poller.gathers or len(data) > _GATHERED_BYTES:
+            if self._waiting:
+                self._flush()
+            self._write(data)
+            return
+        if not self._waiting:
+            self._poller.flush_later(self._flush)
+        self._waiting.append(data)
+
+    def _flush(self) -> None:
+        waiting, self._waiting = self._waiting, []
+        if waiting:
+            self._write(b"".join(waiting))
 
 
 class _Descriptor:
@@ -132,7 +162,8 @@ class _Descriptor:
 
     def send(self, data: bytes) -> None:
         if self.events != READ:
-            self.descriptor.write(data)
+            if self.events:  # without any it is closed
+                self.descriptor.write(data)
             return
         try:
             sent = self.descriptor.socket.send(data)

@@ -35,9 +35,6 @@ class RemoteGround(Connection):
         self.paused_s: float | None = None
         self.failure: str | None = None
 
-    def relay(self, lines: bytes) -> int:
-        return 0
-
     def send(self, line: bytes) -> None:
         if not isinstance(parse_line(line), AircraftPresence | ControlOwner):
             self._send(line)

@@ -1,5 +1,6 @@
 """One aircraft at a node of a cluster: its home, or the guest of another node (docs/cluster.md)."""
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from twisted.internet.defer import Deferred, DeferredLock
@@ -54,6 +55,8 @@ class ClusterSession(AircraftSession):
         self._beaconed: tuple[bool, int | None] = (False, None)
         kinds = "down", "up", "control"
         self._down, self._up, self._control = (f"{node.subject(name)}.{kind}" for kind in kinds)
+        self.send_up = partial(node.send, self._up)
+        """Takes the fencing number, the ground and its lines."""
         self._control_newest_s: dict[str, float] = {}
         self._control_sid = node.subscribe(self._control, self._on_control, self._control_newest_s)
         self._data_sid = node.subscribe(self._down, self._on_down)
@@ -227,7 +230,7 @@ class ClusterSession(AircraftSession):
                 ground.resume()
                 access = Access.COMMAND if ground is owner else Access.LISTEN
                 self.guests.admit(ground, access)
-        self.grounds.connections = ()
+        self.grounds.replace(())
         self.grounds.lease.release()
         self._remotes.clear()
         self._shown_online, self._shown_owner = False, None
@@ -257,13 +260,10 @@ class ClusterSession(AircraftSession):
     def on_lines(self, connection: Connection, lines: bytes) -> None:
         super().on_lines(connection, lines)
         # The guests of a new home list their grounds a moment later.
-        is_heard = self._remotes or self._poller.now_s - self._home_since_s < REPEAT_S
+        is_heard = self._remotes.by_key or self._poller.now_s - self._home_since_s < REPEAT_S
         if is_heard and self.air_lease.owner is connection:
             fence = self.guests.fence if self.lease is None else self.lease.fence
             self._node.send(self._down, fence, 0, lines)
-
-    def send_up(self, ground: int, lines: bytes) -> None:
-        self._node.send(self._up, self.guests.fence, ground, lines)
 
     def send_list(self) -> None:
         if self.lease is None:
