@@ -115,6 +115,18 @@ def relayed(aircraft, ground, mark):
     aircraft.expect(f'"up": "{mark}"')
 
 
+def burst(pairs, count=300):
+    """Check that many numbered lines of many pairs arrive whole and in order, sent all at once."""
+    lines = [f'{{"n": {n}, "rest": "{"x" * (n % 200)}"}}\n' for n in range(count)]
+    for aircraft, ground, *_ in pairs:
+        for line in lines:
+            aircraft.say(line)
+            ground.say(line)
+    for aircraft, ground, *_ in pairs:
+        for end in (aircraft, ground):
+            assert [end.expect('"n": ') for _ in lines] == lines
+
+
 @contextmanager
 def alive(*clients):
     """Send heartbeats of each client, which else is away after 3 s, and close it at the end."""

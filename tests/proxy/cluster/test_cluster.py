@@ -10,6 +10,7 @@ from tests.proxy.cluster.nodes import (
     Nodes,
     RawNats,
     alive,
+    burst,
     heard_until,
     is_closed_after,
     packed,
@@ -55,6 +56,12 @@ def test_a_pair_on_two_nodes_and_a_second_aircraft_of_the_name(nodes):
             ground.say("UP1 seat give to=2\n")
             listener.expect("seat command")
             relayed(aircraft, listener, "given")
+
+
+def test_lines_of_many_pairs_at_once(nodes):
+    pairs = [nodes.pair(0, 1, f"burst-{number}") for number in range(10)]
+    with alive(*(end for pair in pairs for end in pair[:2])):
+        burst(pairs)
 
 
 def test_an_aircraft_moves_and_its_ground_keeps_control(nodes):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.proxy.cluster.nodes import refusal, relayed
+from tests.proxy.cluster.nodes import burst, refusal, relayed
 from tests.proxy.program import Program, accepted
 from tests.support.certificates import Certificates
 from tests.support.nats_servers import NatsServers
@@ -65,6 +65,7 @@ def test_a_tenant_sees_nothing_of_another(server, tmp_path, certificates):
             of_a.say('{"down": "of a"}\n')
             relayed(of_b, ground_b, "of b")
             relayed(of_a, ground_a, "also of a")
+            burst([(of_a, ground_a)])
 
 
 @pytest.mark.parametrize(
