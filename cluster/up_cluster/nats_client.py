@@ -91,7 +91,7 @@ class NatsClient:
         self._attempted: NatsLink | None = None
         self._subscriptions: dict[int, tuple[str, OnMessage]] = {}
         self.payloads: dict[bytes, Callable[[bytes], object]] = {}
-        """As the parser reads it, of `subscribe_payloads`."""
+        """The callbacks of `subscribe_payloads`, by the bytes of their sid, for the parser."""
         self._next_sid = 1
         self._inbox = f"_INBOX.{secrets.token_hex(8)}"
         self._next_request = 0
@@ -139,7 +139,7 @@ class NatsClient:
         return sid
 
     def subscribe_payloads(self, subject: str, on_payload: Callable[[bytes], object]) -> int:
-        """As `subscribe`, in fewer calls, for a callback that raises nothing."""
+        """Call `on_payload` for each payload, in fewer calls than `subscribe`; it may not raise."""
         sid = self.subscribe(subject, lambda message: on_payload(message.payload))
         self.payloads[b"%d" % sid] = on_payload
         return sid

@@ -93,8 +93,7 @@ class GuestSide(Owner):
         self._session.ground_bytes += len(lines)
         if lines == b"\n" and connection.speaks_hello:
             return
-        # As `has_home`, on the path of every relayed line.
-        if self._poller.now_s - self._beacon_s < HOME_LIMIT_S:
+        if self.has_home:
             self._session.send_up(self.fence, connection.number, lines)
         else:
             self._session.rejected_lines += lines.count(b"\n")

@@ -1,6 +1,5 @@
 """This proxy as a node of a cluster: its NATS client, its leases, its heartbeat."""
 
-import math
 import socket
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -198,20 +197,15 @@ class ClusterNode:
         """
         newest = {} if newest_s is None else newest_s
         # Not the poller's time: after a pause of this process, old messages are in its batch.
-        seconds, ages = self._reactor.seconds, self._ages
-        offsets_s = ages.offsets_s
+        seconds, is_older = self._reactor.seconds, self._ages.is_older
 
         def receive(payload: bytes) -> None:
             # The path of every relayed line: avoid every unnecessary call.
             try:
                 envelope = unpack(payload)
                 node, _, sent_s, _, _ = envelope
-                now_s = seconds()
-                # A young message is judged by the offset of the last heartbeat.
-                if sent_s < newest.get(node, 0.0) or (
-                    now_s - sent_s > offsets_s.get(node, -math.inf) + MAX_AGE_S
-                    and ages.age_s(node, sent_s, now_s) > MAX_AGE_S
-                ):
+                is_overtaken = sent_s < newest.get(node, 0.0)
+                if is_overtaken or is_older(MAX_AGE_S, node, sent_s, seconds()):
                     self.stale += 1
                 else:
                     newest[node] = sent_s

@@ -30,14 +30,20 @@ class SenderAges:
 
     def __init__(self) -> None:
         self._senders: dict[str, _Sender] = {}
-        self.offsets_s: dict[str, float] = {}
-        """What each sender's `sent_s` lacks to this clock, as of the last `age_s` after SETTLE_S.
-
-        For those that judge young messages by it: call `age_s` once a second for each sender.
-        """
+        self._offsets_s: dict[str, float] = {}
 
     def __len__(self) -> int:
         return len(self._senders)
+
+    def is_older(self, limit_s: float, sender: str, sent_s: float, now_s: float) -> bool:
+        """Return whether a message is older than a limit.
+
+        A young one is judged by the last `age_s` alone: call that once a second for each sender.
+        """
+        offset_s = self._offsets_s.get(sender)
+        if offset_s is not None and now_s - sent_s <= offset_s + limit_s:
+            return False
+        return self.age_s(sender, sent_s, now_s) > limit_s
 
     def age_s(self, sender: str, sent_s: float, now_s: float) -> float:
         """Return the age of a message that was sent at the sender's time `sent_s`."""
@@ -51,7 +57,7 @@ class SenderAges:
         known.least_s = min(known.least_s, difference_s)
         if now_s - known.first_s < SETTLE_S:
             return math.inf
-        offset_s = self.offsets_s[sender] = min(known.least_s, known.before_s)
+        offset_s = self._offsets_s[sender] = min(known.least_s, known.before_s)
         return difference_s - offset_s
 
     def forget(self, now_s: float) -> None:
@@ -59,4 +65,4 @@ class SenderAges:
         for sender, known in list(self._senders.items()):
             if now_s - known.begin_s > 2 * WINDOW_S:
                 del self._senders[sender]
-                self.offsets_s.pop(sender, None)
+                self._offsets_s.pop(sender, None)

@@ -120,6 +120,7 @@ async def test_a_server_that_does_not_read_gets_what_events_write_later_and_in_o
 
     async with connected() as (poller, transport, write, peer):
         transport.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 16384)
+        peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 16384)
         with ExitStack() as stack:
             await Ready(stack, poller, 100, handle).done
         assert transport.dataBuffer
