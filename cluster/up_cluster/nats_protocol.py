@@ -5,8 +5,7 @@ https://docs.nats.io/reference/reference-protocols/nats-protocol
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 MAX_LINE_BYTES = 65536
@@ -14,6 +13,8 @@ MAX_LINE_BYTES = 65536
 MAX_MESSAGE_BYTES = 8 * 2**20
 """Headers and payload of a message; the default of a server is 1 MiB."""
 PING, PONG = b"PING\r\n", b"PONG\r\n"
+PUB = b"PUB %b %d\r\n%b\r\n"
+"""A message: its subject (and where to answer), the length of the payload, the payload."""
 
 _SUBJECT = re.compile(r"[!-~]+", re.ASCII)
 _STATUS = re.compile(r"NATS/1\.0(?: ([0-9]{3})(?: (.*))?)?", re.ASCII)
@@ -69,12 +70,20 @@ class NatsParser:
     message is no event.
     """
 
-    def __init__(self, payloads: Mapping[bytes, Callable[[bytes], object]] | None = None) -> None:
+    def __init__(
+        self,
+        on_event: Callable[[Event], object],
+        payloads: Mapping[bytes, Callable[[bytes], object]] | None = None,
+    ) -> None:
+        self._on_event = on_event
         self._payloads = {} if payloads is None else payloads
         self._buffer = b""
 
-    def feed(self, data: bytes) -> Iterator[Event]:
-        """Yield the events that `data` completes. Raises NatsProtocolError; then it is useless."""
+    def feed(self, data: bytes) -> None:
+        """Pass on the events that `data` completes.
+
+        Raises NatsProtocolError; then it is useless.
+        """
         payloads = self._payloads
         buffer = self._buffer + data if self._buffer else data
         at = 0
@@ -105,13 +114,13 @@ class NatsParser:
                 else:
                     at = at_payload
                     if (event := _control(line)) is not None:
-                        yield event
+                        self._on_event(event)
                     continue
                 message, length = _message(words, sizes, buffer, at_payload)
                 if message is None:
                     return
                 at = at_payload + length
-                yield message
+                self._on_event(message)
             if len(buffer) - at > MAX_LINE_BYTES:
                 raise NatsProtocolError("nats_too_long", f"a line over {MAX_LINE_BYTES} bytes")
         finally:
@@ -195,15 +204,9 @@ def connect(options: Mapping[str, object]) -> bytes:
     return b"CONNECT %s\r\n" % json.dumps(options, separators=(",", ":")).encode()
 
 
-@lru_cache(2**15)
-def _pub(to: str) -> bytes:
-    """Return the first part of PUB; the subjects of a relay repeat. Raises ValueError."""
-    return b"PUB %b " % _checked(to).encode("ascii")
-
-
 def subscribe(subject: str, sid: int) -> bytes:
     """Return SUB; `sid` is in each message of it. Raises ValueError for an invalid subject."""
-    return f"SUB {_checked(subject)} {sid}\r\n".encode("ascii")
+    return b"SUB %b %d\r\n" % (checked(subject), sid)
 
 
 def unsubscribe(sid: int) -> bytes:
@@ -215,21 +218,20 @@ def publish(
     subject: str, payload: bytes, reply: str = "", headers: Mapping[str, str] | None = None
 ) -> bytes:
     """Return PUB, or HPUB if there are headers. Raises ValueError for an invalid subject."""
-    if not headers and not reply:
-        return b"%b%d\r\n%b\r\n" % (_pub(subject), len(payload), payload)
-    to = f"{_checked(subject)} {_checked(reply)}" if reply else _checked(subject)
+    to = b" ".join(map(checked, (subject, reply) if reply else (subject,)))
     if not headers:
-        return b"PUB %s %d\r\n%b\r\n" % (to.encode("ascii"), len(payload), payload)
+        return PUB % (to, len(payload), payload)
     lines = "".join(f"{key}: {_line(value)}\r\n" for key, value in headers.items())
     block = f"NATS/1.0\r\n{lines}\r\n".encode()
     sizes = len(block), len(block) + len(payload)
-    return b"HPUB %s %d %d\r\n%b%b\r\n" % (to.encode("ascii"), *sizes, block, payload)
+    return b"HPUB %s %d %d\r\n%b%b\r\n" % (to, *sizes, block, payload)
 
 
-def _checked(subject: str) -> str:
+def checked(subject: str) -> bytes:
+    """Return a subject as bytes. Raises ValueError."""
     if not _SUBJECT.fullmatch(subject):
         raise ValueError(f"not a subject: {subject[:60]!r}")
-    return subject
+    return subject.encode("ascii")
 
 
 def _line(value: str) -> str:

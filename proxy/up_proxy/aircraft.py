@@ -5,7 +5,7 @@ from collections.abc import Collection
 from up.log import Limited, UpLogger
 from up.protocols.binary_line import PACKED
 from up.protocols.control_lease import ALIVE_S, ControlLease
-from up.protocols.proxy_lines import PREFIX, AircraftPresence, ControlOwner, Watchers
+from up.protocols.proxy_lines import FIRST, PREFIX, AircraftPresence, ControlOwner, Watchers
 from up_proxy.connection import IDLE_S, Connection, Owner
 from up_proxy.ground_side import GroundSide
 from up_proxy.listener import KEEPALIVE_IDLE_S
@@ -83,7 +83,7 @@ class AircraftSession(Owner):
         if self.air_lease.owner is not connection:
             return
         self.air_bytes += len(lines)
-        if PREFIX in lines and (lines.startswith(PREFIX) or b"\n" + PREFIX in lines):
+        if FIRST in lines and (lines.startswith(PREFIX) or b"\n" + PREFIX in lines):
             before = lines.count(b"\n")
             lines = without(PREFIX, lines)
             self.dropped_lines += before - lines.count(b"\n")
@@ -190,7 +190,7 @@ def relay_to_all(grounds: Collection[Connection], lines: bytes) -> int:
     """
     if not grounds:
         return 0
-    plain = lines if _PACKED not in lines else without(_PACKED, lines)
+    plain = lines if PACKED not in lines else without(_PACKED, lines)
     dropped = 0
     for ground in grounds:
         readable = lines if ground.reads_packed else plain

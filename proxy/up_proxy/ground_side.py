@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from up.protocols import binary_line
 from up.protocols.control_lease import ControlLease
 from up.protocols.proxy_lines import (
+    FIRST,
     PREFIX,
     Access,
     ControlGive,
@@ -84,7 +85,7 @@ class GroundSide(Owner):
         """Relay the owner's lines, handle control lines, reject and count the rest."""
         if lines == b"\n" and connection.speaks_hello:
             return  # a heartbeat: it keeps this connection, and would cost the aircraft data
-        if PREFIX in lines:
+        if FIRST in lines and PREFIX in lines:
             self._relay_mixed(connection, lines)
         elif connection is self.lease.owner:
             self._relay(connection, lines)
@@ -114,7 +115,7 @@ class GroundSide(Owner):
             connection.pause()
 
     def _from_listener(self, connection: Connection, lines: bytes) -> None:
-        if HANDSHAKE in lines:
+        if binary_line.HANDSHAKE in lines:
             lines = self._relay_handshakes(connection, lines)
             if not lines:
                 return

@@ -32,11 +32,11 @@ def test_golden_bytes_in_any_pieces(cuts, takes_payloads):
     taken = []
     # Of sid 8 the message has a reply, of sid 9 a header: both stay events.
     payloads = dict.fromkeys((b"7", b"8", b"9"), taken.append) if takes_payloads else {}
-    parser = nats.NatsParser(payloads)
-    edges = [0, *sorted(cuts), len(GOLDEN)]
     found = []
+    parser = nats.NatsParser(found.append, payloads)
+    edges = [0, *sorted(cuts), len(GOLDEN)]
     for begin, end in pairwise(edges):
-        found += parser.feed(GOLDEN[begin:end])
+        parser.feed(GOLDEN[begin:end])
     assert taken == [b"a\r\nbc"] * takes_payloads
     assert found == EVENTS[:3] + EVENTS[3:4] * (not takes_payloads) + EVENTS[4:]
 
@@ -49,10 +49,10 @@ def test_golden_bytes_in_any_pieces(cuts, takes_payloads):
     )
 )
 def test_any_bytes_are_events_or_a_code(pieces):
-    parser = nats.NatsParser({b"1": lambda payload: None})
+    parser = nats.NatsParser(lambda event: None, {b"1": lambda payload: None})
     try:
         for piece in pieces:
-            list(parser.feed(piece))
+            parser.feed(piece)
     except nats.NatsProtocolError as error:
         assert error.code in ("nats_malformed", "nats_too_long")
 
@@ -76,7 +76,7 @@ def test_any_bytes_are_events_or_a_code(pieces):
 @pytest.mark.parametrize("payloads", [{}, {b"1": pytest.fail}], ids=["messages", "payloads"])
 def test_malformed_lines(line, code, payloads):
     with pytest.raises(nats.NatsProtocolError) as caught:
-        list(nats.NatsParser(payloads).feed(line))
+        nats.NatsParser(pytest.fail, payloads).feed(line)
     assert caught.value.code == code
 
 

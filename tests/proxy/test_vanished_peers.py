@@ -17,11 +17,11 @@ def proxy(tmp_path):
 
 
 def test_a_vanished_aircraft_and_owner_are_detected_and_replaced(proxy):
+    begin_s = time.monotonic()
     air, token = accepted(proxy.airborne_port, "UP1 aircraft=a\n", THERE)
     ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=command\n", THERE)
     assert figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 1
     blackhole(proxy.inside)
-    begin_s = time.monotonic()
     until(
         lambda: figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 0,
         "offline",

@@ -77,6 +77,7 @@ class ClusterNode:
         self.on_drain: Callable[[], object] = lambda: None
         self.leases = self._member.leases
         self._client = self._member.client
+        self._send_usage = self.sender(self._member.subject("nodes"))
         self._ages = SenderAges()
         self._releases: set[Deferred[None]] = set()
         self._timer: Timer | None = None
@@ -163,12 +164,18 @@ class ClusterNode:
     def key(self, aircraft: str) -> str:
         return self._member.key("aircraft", aircraft)
 
-    def send(self, subject: str, fence: int, ground: int, body: bytes) -> None:
-        sent_ms = int(self._reactor.seconds() * 1000)
-        self._client.publish(subject, ENVELOPE % (self._id_bytes, fence, sent_ms, ground, body))
+    def sender(self, subject: str) -> Callable[[int, int, bytes], None]:
+        """Return what sends messages: it takes the fencing number, the ground and the body."""
+        publish, node = self._client.publisher(subject), self._id_bytes
+        seconds = self._reactor.seconds
+
+        def send(fence: int, ground: int, body: bytes) -> None:
+            publish(ENVELOPE % (node, fence, int(seconds() * 1000), ground, body))
+
+        return send
 
     def _send_batch(self, node: str, body: bytes) -> None:
-        self.send(self._batch_subject(node), 0, 0, body)
+        self.sender(self._batch_subject(node))(0, 0, body)
 
     def _batch_subject(self, node: str) -> str:
         return self._member.subject(f"nodes.{node}")
@@ -251,7 +258,7 @@ class ClusterNode:
     def _beat(self) -> None:
         self._timer = self._reactor.callLater(HEARTBEAT_S, self._beat)
         self._ages.forget(self._reactor.seconds())
-        self.send(self._member.subject("nodes"), 0, 0, encode_usage(self.quota.own))
+        self._send_usage(0, 0, encode_usage(self.quota.own))
 
     def _on_connected(self, is_connected: bool) -> None:
         if not is_connected:

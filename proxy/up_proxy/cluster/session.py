@@ -1,6 +1,5 @@
 """One aircraft at a node of a cluster: its home, or the guest of another node (docs/cluster.md)."""
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from twisted.internet.defer import Deferred, DeferredLock
@@ -8,6 +7,7 @@ from twisted.internet.defer import Deferred, DeferredLock
 from up.log import Limited, UpLogger
 from up.protocols.control_lease import State
 from up.protocols.proxy_lines import (
+    FIRST,
     PREFIX,
     Access,
     ControlGranted,
@@ -54,11 +54,12 @@ class ClusterSession(AircraftSession):
         self._repeated_s = poller.now_s - REPEAT_S * phase_of(name)
         self._beaconed: tuple[bool, int | None] = (False, None)
         kinds = "down", "up", "control"
-        self._down, self._up, self._control = (f"{node.subject(name)}.{kind}" for kind in kinds)
-        self.send_up = partial(node.send, self._up)
-        """Takes the fencing number, the ground and its lines."""
+        subjects = self._down, self._up, control = [
+            f"{node.subject(name)}.{kind}" for kind in kinds
+        ]
+        self._send_down, self.send_up, self._publish_control = map(node.sender, subjects)
         self._control_newest_s: dict[str, float] = {}
-        self._control_sid = node.subscribe(self._control, self._on_control, self._control_newest_s)
+        self._control_sid = node.subscribe(control, self._on_control, self._control_newest_s)
         self._data_sid = node.subscribe(self._down, self._on_down)
 
     def _new_grounds(self) -> HomeGroundSide:
@@ -263,7 +264,7 @@ class ClusterSession(AircraftSession):
         is_heard = self._remotes.by_key or self._poller.now_s - self._home_since_s < REPEAT_S
         if is_heard and self.air_lease.owner is connection:
             fence = self.guests.fence if self.lease is None else self.lease.fence
-            self._node.send(self._down, fence, 0, lines)
+            self._send_down(fence, 0, lines)
 
     def send_list(self) -> None:
         if self.lease is None:
@@ -302,14 +303,14 @@ class ClusterSession(AircraftSession):
 
     def _send_control(self, ground: int, body: bytes) -> None:
         fence = self.guests.fence if self.lease is None else self.lease.fence
-        self._node.send(self._control, fence, ground, body)
+        self._publish_control(fence, ground, body)
 
     def _on_down(self, message: Envelope) -> None:
         if self.lease is not None or message.fence < self.guests.fence:
             self._node.fenced += 1
             return
         lines = message.body
-        if PREFIX in lines:
+        if FIRST in lines and PREFIX in lines:
             lines = without(PREFIX, lines)
         self.dropped_lines += relay_to_all(self.guests.connections.values(), lines)
 

@@ -221,11 +221,13 @@ class RawNats:
 
     def _event(self):
         """Read one event, keep a message, and return the kind of another one."""
-        parser = nats.NatsParser()
-        while True:
-            for event in parser.feed(self.file.readline()):
-                if isinstance(event, nats.Message):
-                    self.messages.append(event)
-                elif isinstance(event, nats.Ping):
-                    self.socket.sendall(nats.PONG)
-                return type(event)
+        events = []
+        parser = nats.NatsParser(events.append)
+        while not events:
+            parser.feed(self.file.readline())
+        (event,) = events
+        if isinstance(event, nats.Message):
+            self.messages.append(event)
+        elif isinstance(event, nats.Ping):
+            self.socket.sendall(nats.PONG)
+        return type(event)
