@@ -47,7 +47,9 @@ RUNS = itertools.count()
 def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[Row]:
     """Yield the hop between two nodes beside pairs of one node, the rounds interleaved.
 
-    Relays have a core; NATS servers and load have the other one.
+    Each of two nodes has half of the aircraft and half of the grounds, and all that differs is
+    which ones: the relays have equal caches. They have a core; NATS servers and load have the
+    other one.
     """
     relays = [program.pid for program in nodes.programs[:2]]
     nats = [process.pid for process in servers.processes]
@@ -55,8 +57,9 @@ def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[
     with pinned({0: relays, 1: nats}):
         for _ in range(rounds):
             for load, rate_hz in LOADS.items():
-                local[load].append(round_trips(nodes, 0, 0, rate_hz, relays, nats, seconds))
-                across[load].append(round_trips(nodes, 0, 1, rate_hz, relays, nats, seconds))
+                for found, is_across in ((local, False), (across, True)):
+                    run = round_trips(nodes, is_across, rate_hz, relays, nats, seconds)
+                    found[load].append(run)
     for load in LOADS:
         near, far = local[load], across[load]
         if load != FULL:  # there a line waits for those of all other pairs
@@ -96,16 +99,18 @@ def move(parents: Iterable[int], allowed: set[int]) -> None:
 
 def round_trips(
     nodes: Any,
-    air: int,
-    ground: int,
+    is_across: bool,
     rate_hz: int,
     relays: list[int],
     nats: list[int],
     seconds: float,
 ) -> tuple[float, float, float, float]:
     """Return p50 and p99 of one way, CPU of relays and of NATS of a round trip; microseconds."""
-    ports = nodes.programs[air].airborne_port, nodes.programs[ground].ground_port
-    more = {"echo": ports[0], "send": ports[1], "rate_hz": rate_hz, "waits": True}
+    pairs = zip(
+        nodes.programs[:2], nodes.programs[1::-1] if is_across else nodes.programs[:2], strict=True
+    )
+    ports = [(ground.ground_port, air.airborne_port) for air, ground in pairs]
+    more = {"nodes": ports, "rate_hz": rate_hz, "waits": True}
     load = Load("proxy", seconds, prefix=f"run{next(RUNS)}", **more)
     load.hear("ready")
     load.hear("warm")

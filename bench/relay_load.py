@@ -3,9 +3,10 @@
 Reads one JSON object from stdin: {"mode": "proxy" | "forward" | "direct", "send": port,
 "echo": port, "pairs": n, "rate_hz": r, "seconds": s, "size": bytes}; prints one JSON object with
 the round trips' percentiles in microseconds, and of `one way`, those from the sending end to the
-echo. `proxy`: both ends dial the relay and say hello; `forward`: the relay dials our echo port;
-`direct`: no relay. With "tls", the path of a folder of certificates, both legs are TLS. With
-"waits" it sleeps between events, for programs that share its core.
+echo. `proxy`: both ends dial the relay and say hello; with "nodes", a list of [send, echo], the
+pairs are spread over them; `forward`: the relay dials our echo port; `direct`: no relay. With
+"tls", the path of a folder of certificates, both legs are TLS. With "waits" it sleeps between
+events, for programs that share its core.
 """
 
 import itertools
@@ -59,15 +60,17 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
         else:
             job["send"] = listener.getsockname()[1]
     prefix = job.get("prefix", "bench")
+    nodes = itertools.cycle(job.get("nodes") or [(job["send"], job["echo"])])
     for number in range(job["pairs"]):
+        to_send, to_echo = next(nodes)
         if listener is None:
             own, name = client, f"{prefix}-{number}"
             if folder is not None:
                 own = TLSFiles(folder / name).client()
-            echo = dial(job["echo"], f"UP1 aircraft={name}\n", own)
-            send = dial(job["send"], f"UP1 aircraft={name} seat=command\n", client)
+            echo = dial(to_echo, f"UP1 aircraft={name}\n", own)
+            send = dial(to_send, f"UP1 aircraft={name} seat=command\n", client)
         else:
-            send = dial(job["send"], tls=client)
+            send = dial(to_send, tls=client)
             echo, _ = listener.accept()
             echo.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             if server is not None:
