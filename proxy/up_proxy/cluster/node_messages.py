@@ -20,6 +20,7 @@ _MAX_HEADER = 32 + 3 * (1 + _MAX_DIGITS)
 _tuple_new = tuple.__new__
 """Without the call that a NamedTuple makes in Python."""
 _NAME = re.compile(r"[!-~]{1,32}", re.ASCII)
+_JSON = json.JSONEncoder(separators=(",", ":"))
 
 
 class MalformedError(ValueError):
@@ -175,4 +176,4 @@ def _number(value: Any) -> int:
 
 
 def _encode(fields: dict[str, object]) -> bytes:
-    return json.dumps(fields, separators=(",", ":")).encode("ascii")
+    return _JSON.encode(fields).encode("ascii")
