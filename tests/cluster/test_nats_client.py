@@ -1,5 +1,6 @@
 """The NATS client's bounded buffer and its view of a silent server, on a virtual clock."""
 
+import pytest
 from twisted.internet.task import Clock
 
 from tests.support.transport import Transport
@@ -24,19 +25,36 @@ def linked():
     return clock, client, link, transport
 
 
-def test_the_oldest_data_behind_a_slow_server_are_dropped():
+def publish(client, subject, body):
+    client.publish(subject, body)
+
+
+def publish_by_publisher(client, subject, body):
+    client.publisher(subject)(body)
+
+
+ways_to_publish = pytest.mark.parametrize("send", [publish, publish_by_publisher])
+
+
+@ways_to_publish
+def test_the_oldest_data_behind_a_slow_server_are_dropped(send):
     _, client, link, transport = linked()
     link.pauseProducing()
     body = b"x" * 1000
     count = nats_client.MAX_WAITING_BYTES // 1000 + 10
     for number in range(count):
-        client.publish(f"data.{number}", body)
+        send(client, f"data.{number}", body)
     client.subscribe("control", print)
     assert transport.value() == b"SUB control 1\r\n"
     assert 10 < client.dropped < 100
     link.resumeProducing()
     subjects = [line.split()[1] for line in transport.value().split(b"\r\n") if line[:3] == b"PUB"]
     assert subjects == [b"data.%d" % n for n in range(client.dropped, count)]
+    transport.clear()
+    send(client, "data", b"new")
+    assert transport.value() == b"PUB data 3\r\nnew\r\n"
+    with pytest.raises(ValueError, match="not a subject"):
+        send(client, "da ta", b"")
 
 
 def test_a_silent_server_is_left():
@@ -65,9 +83,10 @@ def test_subscriptions_that_change_during_the_handshake():
     assert made == [b"SUB begun 2"]
 
 
-def test_nothing_waits_for_a_connection():
+@ways_to_publish
+def test_nothing_waits_for_a_connection(send):
     client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 4222)], name="test")
-    client.publish("data", b"old")
+    send(client, "data", b"old")
     assert client.dropped == 1
 
 
