@@ -108,6 +108,7 @@ class NatsClient:
         if self._attempted is not None:
             # A registered producer would keep the connection open.
             self._attempted.transport.unregisterProducer()
+        self._link = None
         await self._service.stopService()
         self._fail_requests()
         self._limited.stop()

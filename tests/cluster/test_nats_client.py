@@ -1,7 +1,11 @@
 """The NATS client's bounded buffer and its view of a silent server, on a virtual clock."""
 
 import pytest
+from twisted.internet.defer import Deferred
+from twisted.internet.error import ConnectionDone
 from twisted.internet.task import Clock
+from twisted.logger import capturedLogs
+from twisted.python.failure import Failure
 
 from tests.support.transport import Transport
 from up_cluster import nats_client, nats_protocol
@@ -104,3 +108,11 @@ def test_payloads_of_a_subscription_until_its_end_and_from_the_next_server():
     client.unsubscribe(sid)
     following.dataReceived(message)
     assert heard == [b"ab", b"ask", b"ab"]
+
+
+def test_its_end_is_not_reported_as_a_loss():
+    _, client, link, _ = linked()
+    with capturedLogs() as logs:
+        Deferred.fromCoroutine(client.stop())
+        link.connectionLost(Failure(ConnectionDone()))
+    assert logs == []
