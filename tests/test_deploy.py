@@ -2,14 +2,17 @@
 
 import json
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
 import yaml
 
+from tests.proxy.program import Program
+from tests.support.nats_servers import nats_server
 from tests.support.reactor import reactor
 from up.system.figures import text_of
-from up_cluster.config import ClusterConfig
+from up_cluster.config import FLEET, ClusterConfig
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.proxy import Proxy
 from up_runner.config import RUNNER, RunnerConfig
@@ -55,6 +58,8 @@ def check_cluster(cluster: ClusterConfig, folder):
 def test_kubernetes_runs_the_programs_with_their_ports_and_keys(tmp_path):
     proxy = load(PROXY, named("ConfigMap", "up-proxy")["data"]["proxy.yml"], tmp_path)
     check_cluster(proxy.cluster, tmp_path)
+    fleet = load(FLEET, named("ConfigMap", "up-proxy")["data"]["fleet.yml"], tmp_path)
+    assert (fleet.servers, fleet.credentials) == (proxy.cluster.servers, proxy.cluster.credentials)
     runner = load(RUNNER, named("ConfigMap", "up-runner")["data"]["runner.yml"], tmp_path)
     check_cluster(runner.pool, tmp_path)
     ports = {
@@ -70,14 +75,16 @@ def test_kubernetes_runs_the_programs_with_their_ports_and_keys(tmp_path):
         for container in pod["spec"]["template"]["spec"]["containers"]
         if container["name"] != "nats"
     }
-    for page, shown in zip(("ready", "live"), probes["up-proxy"], strict=True):
-        assert f"http://127.0.0.1:{proxy.metrics_port}/{page}'" in shown
+    for shown in probes["up-proxy"]:
+        assert f"/dev/tcp/127.0.0.1/{proxy.metrics_port} " in shown
     for page, shown in zip(("ready", "live"), probes["up-runner"], strict=True):
         get = json.loads(shown)["httpGet"]
         assert get == {"host": "127.0.0.1", "port": runner.metrics_port, "path": f"/{page}"}
     mounts = next(each for each in pods() if each["kind"] == "DaemonSet")["spec"]["template"]
     container = mounts["spec"]["containers"][0]
-    assert runner.run_folder in {each["mountPath"] for each in container["volumeMounts"]}
+    # Not the volume's own folder, which belongs to root.
+    folder = str(Path(runner.run_folder).parent)
+    assert folder in {each["mountPath"] for each in container["volumeMounts"]}
     # What the shell replaces, and what it is replaced by.
     assert runner.pool.address in container["args"][0]
     assert f"${container['env'][0]['name']}/" in container["args"][0]
@@ -108,6 +115,38 @@ def test_each_pod_is_consistent(pod):
     wanted = {each["configMap"]["name"] for each in spec["volumes"] if "configMap" in each}
     # That of NATS is made of deploy/nats.conf.
     assert wanted - {"nats"} <= maps
+
+
+def test_the_probes_of_a_proxy_tell_readiness_from_life(tmp_path):
+    (container,) = named("Deployment", "up-proxy")["spec"]["template"]["spec"]["containers"]
+    with Program(tmp_path, "cluster: {servers: 'nats://127.0.0.1:1'}") as proxy:
+
+        def status(probe):
+            *start, script, page = container[probe]["exec"]["command"]
+            script = script.replace("9303", str(proxy.metrics_port))
+            done = subprocess.run([*start, script, page], capture_output=True, check=False)
+            return done.returncode, json.loads(done.stdout.splitlines()[-1])["code"]
+
+        assert [status(each) for each in PROBES] == [(1, "cluster"), (0, "live")]
+
+
+def test_the_image_has_a_user_that_kubernetes_knows_not_to_be_root():
+    assert re.search(r"^USER [1-9]\d*$", (DEPLOY / "Dockerfile").read_text(), re.MULTILINE)
+
+
+# Without quotation marks NATS reads numbers.
+@pytest.mark.parametrize("password", ["4eb73ecb", "123456"])
+def test_nats_reads_any_password(password):
+    (container,) = named("StatefulSet", "nats")["spec"]["template"]["spec"]["containers"]
+    (pod,) = (each["value"] for each in container["env"] if each["name"] == "UP_PASSWORD")
+    services = yaml.safe_load((DEPLOY / "compose.yml").read_text())["services"]
+    composed = services["nats-0"]["environment"]["UP_PASSWORD"]
+    for value in (
+        pod.replace("$(PASSWORD)", password),
+        composed.replace("${UP_PASSWORD:?}", password),
+    ):
+        environ = {"NATS_NAME": "nats-0", "UP_PASSWORD": value}
+        subprocess.run([nats_server(), "-t", "-c", DEPLOY / "nats.conf"], env=environ, check=True)
 
 
 def test_compose_runs_three_nodes(tmp_path):
