@@ -5,7 +5,7 @@ from collections.abc import Collection
 from up.log import Limited, UpLogger
 from up.protocols.binary_line import PACKED
 from up.protocols.control_lease import ALIVE_S, ControlLease
-from up.protocols.proxy_lines import FIRST, PREFIX, AircraftPresence, ControlOwner, Watchers
+from up.protocols.proxy_lines import PREFIX, PREFIX_BYTE, AircraftPresence, ControlOwner, Watchers
 from up_proxy.connection import IDLE_S, Connection, Owner
 from up_proxy.ground_side import GroundSide
 from up_proxy.listener import KEEPALIVE_IDLE_S
@@ -83,7 +83,7 @@ class AircraftSession(Owner):
         if self.air_lease.owner is not connection:
             return
         self.air_bytes += len(lines)
-        if FIRST in lines and (lines.startswith(PREFIX) or b"\n" + PREFIX in lines):
+        if PREFIX_BYTE in lines and (lines.startswith(PREFIX) or b"\n" + PREFIX in lines):
             before = lines.count(b"\n")
             lines = without(PREFIX, lines)
             self.dropped_lines += before - lines.count(b"\n")

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 from up.protocols import binary_line
 from up.protocols.control_lease import ControlLease
 from up.protocols.proxy_lines import (
-    FIRST,
     PREFIX,
+    PREFIX_BYTE,
     Access,
     ControlGive,
     ControlGranted,
@@ -85,7 +85,7 @@ class GroundSide(Owner):
         """Relay the owner's lines, handle control lines, reject and count the rest."""
         if lines == b"\n" and connection.speaks_hello:
             return  # a heartbeat: it keeps this connection, and would cost the aircraft data
-        if FIRST in lines and PREFIX in lines:
+        if PREFIX_BYTE in lines and PREFIX in lines:
             self._relay_mixed(connection, lines)
         elif connection is self.lease.owner:
             self._relay(connection, lines)

@@ -20,7 +20,8 @@ WRITE = select.EPOLLOUT
 PAUSED = select.EPOLLRDHUP
 """Does not read, but detects a closed peer."""
 
-_BATCH = 32
+_BATCH = 256
+_GATHERED = 32
 """Events whose writes to one socket leave together; more would keep the first ones too long."""
 BUSY_POLL_S = 0.01
 """Longer than a tick of the kernel: a shorter timeout would cost a timer interrupt per line."""
@@ -94,7 +95,7 @@ class Poller:
         self._come_back()
 
     def flush_later(self, flush: Callable[[], None]) -> None:
-        """Call `flush` after the current events; for use while `gathers`."""
+        """Call `flush` after the current events, 32 at most; for use while `gathers`."""
         self._flushes.append(flush)
 
     def seconds(self) -> float:
@@ -155,17 +156,18 @@ class Poller:
         handlers = self._handlers
         self.now_s = self._seconds()
         self.gathers = len(events) > 1
-        for descriptor, what in events:
-            handler = handlers.get(descriptor)
-            if handler is None:
-                continue
-            try:
-                handler.on_ready(what)
-            except Exception:  # noqa: BLE001 - a bug costs one connection, never the relay
-                _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
-                handler.fail("internal error")
-        while self._flushes:
-            self._call(self._flushes.pop())
+        for at in range(0, len(events), _GATHERED):
+            for descriptor, what in events[at : at + _GATHERED]:
+                handler = handlers.get(descriptor)
+                if handler is None:
+                    continue
+                try:
+                    handler.on_ready(what)
+                except Exception:  # noqa: BLE001 - a bug costs one connection, never the relay
+                    _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
+                    handler.fail("internal error")
+            while self._flushes:
+                self._call(self._flushes.pop())
         self.gathers = False
         if self._ending:
             self.reap()

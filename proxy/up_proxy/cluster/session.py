@@ -7,8 +7,8 @@ from twisted.internet.defer import Deferred, DeferredLock
 from up.log import Limited, UpLogger
 from up.protocols.control_lease import State
 from up.protocols.proxy_lines import (
-    FIRST,
     PREFIX,
+    PREFIX_BYTE,
     Access,
     ControlGranted,
     ControlLost,
@@ -310,7 +310,7 @@ class ClusterSession(AircraftSession):
             self._node.fenced += 1
             return
         lines = message.body
-        if FIRST in lines and PREFIX in lines:
+        if PREFIX_BYTE in lines and PREFIX in lines:
             lines = without(PREFIX, lines)
         self.dropped_lines += relay_to_all(self.guests.connections.values(), lines)
 
