@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from up_cluster import nats_protocol as nats
 from up_cluster.errors import RefusedError, WrongRevisionError
-from up_cluster.nats_client import NatsClient
+from up_cluster.nats_client import REQUEST_LIMIT_S, NatsClient
 
 STREAM_NAME_EXISTS = 10058
 STREAM_NOT_FOUND, NOT_ENABLED = 10059, (10039, 10076)
@@ -31,9 +31,11 @@ class Stored(NamedTuple):
     data: bytes
 
 
-async def api(client: NatsClient, what: str, body: Mapping[str, Any]) -> dict[str, Any]:
+async def api(
+    client: NatsClient, what: str, body: Mapping[str, Any], limit_s: float = REQUEST_LIMIT_S
+) -> dict[str, Any]:
     """Return the answer of the API. Raises UnavailableError, RefusedError."""
-    answer = await client.request(f"$JS.API.{what}", json.dumps(body).encode())
+    answer = await client.request(f"$JS.API.{what}", json.dumps(body).encode(), limit_s=limit_s)
     return _checked(answer.payload)
 
 

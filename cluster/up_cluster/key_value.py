@@ -30,6 +30,8 @@ MARKER_TTL_S = 60
 HEARTBEAT_S = 2.0
 """A watch that gets neither entries nor heartbeats for twice as long begins again."""
 WATCH_RETRY_S = 1.0
+CONSUMER_LIMIT_S = 1.0
+"""NATS also lets servers send entries that have died within the last minute: another may answer."""
 _log = UpLogger.get_logger("cluster")
 
 
@@ -133,7 +135,8 @@ class KeyValueBucket:
 
     async def consume(self, config: dict[str, Any]) -> dict[str, Any]:
         body = {"stream_name": self._stream, "config": config}
-        return await api(self._client, f"CONSUMER.CREATE.{self._stream}", body)
+        what = f"CONSUMER.CREATE.{self._stream}"
+        return await api(self._client, what, body, CONSUMER_LIMIT_S)
 
     def _subject(self, key: str) -> str:
         return f"$KV.{self.name}.{key}"
@@ -196,10 +199,11 @@ class Watch:
                     "num_replicas": 1,
                 }
             )
-        except (UnavailableError, RefusedError):
+        except (UnavailableError, RefusedError) as error:
             if sid == self._sid:
                 cancel(self._timer)
-                self._timer = self._clock.callLater(WATCH_RETRY_S, self.start)
+                pause_s = 0.0 if error.code == "timeout" else WATCH_RETRY_S
+                self._timer = self._clock.callLater(pause_s, self.start)
             return
         if sid == self._sid and self._sequence == 0 and not made.get("num_pending"):
             self._set_current()

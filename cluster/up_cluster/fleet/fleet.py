@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import secrets
+from collections import defaultdict
 from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -24,10 +25,14 @@ from up_cluster.nats_protocol import Message
 CONNECT_LIMIT_S = 10.0
 POLL_S = 0.25
 ANSWER_S = 5.0
+READ_S = 12.0
+"""For the entries: NATS may let a server send them that has just died, and must be asked again."""
 KINDS = {"aircraft": "proxy", "instance": "runner"}
 """The keys of the leases, and the kind of member that holds them."""
 
 Rows = list[dict[str, Any]]
+Entries = defaultdict[str, dict[str, Entry]]
+"""The entries of a tenant by their kind and aircraft."""
 
 
 class FleetError(UserError):
@@ -58,6 +63,18 @@ def numbers_in(report: dict[str, Any], key: str) -> dict[str, float]:
     found = report.get(key)
     pairs = found.items() if isinstance(found, dict) else ()
     return {kind: value for kind, value in pairs if isinstance(value, int | float)}
+
+
+def leases_in(entries: Entries) -> Rows:
+    """Return who holds which aircraft."""
+    rows: Rows = []
+    for kind in KINDS:
+        for name, entry in entries[kind].items():
+            record = parse_record(entry)
+            if record is not None:
+                row = {"kind": kind, "aircraft": name, "id": record.node}
+                rows.append({**row, "host": str(record.data.get("host", ""))})
+    return rows
 
 
 class Fleet:
@@ -124,16 +141,17 @@ class Fleet:
 
     async def overview(self, wait_s: float) -> dict[str, Any]:
         """Return the members that answered in time, and the entries of those that did not."""
-        leases, wanted = await self._leases(), await self._keys("wanted")
-        asleep = await self._keys("asleep")
+        entries = await self._entries()
+        leases = leases_in(entries)
         members = await self._reports(wait_s, leases)
         known = {each["id"] for each in members}
         held = {row["aircraft"] for row in leases if row["kind"] == "instance"}
+        wanted = entries["wanted"].keys()
         return {
             "members": members,
             "lost": [row for row in leases if row["id"] not in known],
-            "orphans": sorted(set(wanted) - held),
-            "asleep": sorted(set(asleep) - set(wanted)),
+            "orphans": sorted(wanted - held),
+            "asleep": sorted(entries["asleep"].keys() - wanted),
         }
 
     async def usage(self, wait_s: float) -> dict[str, Any]:
@@ -154,7 +172,8 @@ class Fleet:
 
     async def where(self, aircraft: str, wait_s: float) -> dict[str, Any]:
         """Return the members that hold an aircraft. Raises FleetError without one."""
-        leases = [each for each in await self._leases() if each["aircraft"] == aircraft]
+        entries = await self._entries()
+        leases = [each for each in leases_in(entries) if each["aircraft"] == aircraft]
         members = {each["id"]: each for each in await self._reports(wait_s, leases)}
         places = []
         for lease in leases:
@@ -166,7 +185,7 @@ class Fleet:
             place = {"id": lease["id"], "host": member.get("host", lease["host"])}
             places.append({**row, "kind": KINDS[lease["kind"]], **place})
         if not places:
-            if aircraft in await self._keys("asleep"):
+            if aircraft in entries["asleep"]:
                 text = f"{aircraft} sleeps: the next request of its phone starts it"
                 raise FleetError(text, "asleep", aircraft=aircraft)
             raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
@@ -189,13 +208,14 @@ class Fleet:
 
     async def kick(self, aircraft: str, kind: str) -> dict[str, Any]:
         """Disconnect an aircraft, or stop its instance. Raises FleetError."""
-        for lease in await self._leases():
+        entries = await self._entries()
+        for lease in leases_in(entries):
             if (lease["aircraft"], lease["kind"]) == (aircraft, kind):
                 await self._ask(lease["id"], {"action": "kick", "aircraft": aircraft})
                 done = "stopped" if kind == "instance" else "disconnected"
                 return {"aircraft": aircraft, "done": done, "id": lease["id"]}
         for key in ("wanted", "asleep") if kind == "instance" else ():
-            if (entry := (await self._keys(key)).get(aircraft)) is not None:
+            if (entry := entries[key].get(aircraft)) is not None:
                 await self._member.bucket.purge(entry.key, expected=entry.revision)
                 return {"aircraft": aircraft, "done": "not_wanted", "id": ""}
         raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
@@ -230,31 +250,21 @@ class Fleet:
         self._client.unsubscribe(sid)
         return sorted(found, key=lambda each: (each["kind"], each["host"], each["id"]))
 
-    async def _leases(self) -> Rows:
-        rows: Rows = []
-        for kind in KINDS:
-            for name, entry in (await self._keys(kind)).items():
-                record = parse_record(entry)
-                if record is not None:
-                    row = {"kind": kind, "aircraft": name, "id": record.node}
-                    rows.append({**row, "host": str(record.data.get("host", ""))})
-        return rows
-
-    async def _keys(self, kind: str) -> dict[str, Entry]:
-        found: dict[str, Entry] = {}
+    async def _entries(self) -> Entries:
+        found: Entries = defaultdict(dict)
         done: Deferred[None] = Deferred()
 
         def on_entry(entry: Entry) -> None:
             if not entry.is_deleted:
-                found[aircraft_of(entry.key)] = entry
+                found[entry.key.partition(".")[0]][aircraft_of(entry.key)] = entry
 
         def on_current(is_current: bool) -> None:
             if is_current and not done.called:
                 done.callback(None)
 
-        pattern = self._member.key(kind, "*")
+        pattern = self._member.key("*", "*")
         watch = self._member.bucket.watch(pattern, on_entry, on_current, self._reactor)
-        done.addTimeout(ANSWER_S, self._reactor)
+        done.addTimeout(READ_S, self._reactor)
         try:
             await done
         except TimeoutError:

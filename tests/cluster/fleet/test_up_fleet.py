@@ -113,6 +113,21 @@ def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, 
             assert (drained["is_draining"], drained["aircraft"]) == (True, [])
 
 
+def test_the_list_after_the_death_of_a_nats_server(tmp_path):
+    """NATS still wants it to send entries, for up to a minute."""
+    (tmp_path / "nats").mkdir()
+    with NatsServers(tmp_path / "nats") as servers, Nodes(servers, tmp_path, 1) as nodes:
+        fleet = UpFleet(tmp_path / "fleet", servers.urls)
+        aircraft, _ = nodes.aircraft(0, "glider-1")
+        with alive(aircraft):
+            leader = servers.leader("KV_up-leases")
+            # Proxy and up-fleet are connected to the first.
+            servers.kill(next(each for each in (1, 2) if each != leader))
+            for _ in range(3):
+                (member,) = fleet.ask("list")["members"]
+                assert [row["aircraft"] for row in member["aircraft"]] == ["glider-1"]
+
+
 def test_another_tenant_sees_and_changes_nothing(server, tmp_path, fleet, a):
     more = f"  tenant: {TENANT}\n  replicas: 1\n  credentials: {a}\n"
     b = credentials(tmp_path / "b", "b:two")
