@@ -105,7 +105,9 @@ class Instance:
 
     def stop(self, reason: Problem) -> None:
         """Request the end of the process, and kill it after KILL_DELAY_S."""
-        if (self.state, Input.STOP) in TRANSITIONS:
+        if self.state is State.WAITING:
+            self._end(reason)  # there is no process
+        elif (self.state, Input.STOP) in TRANSITIONS:
             self._log.info(
                 "stops: {reason}", code="stopping", cause=reason.code, reason=str(reason)
             )

@@ -56,7 +56,6 @@ TRANSITIONS: dict[tuple[State, Input], tuple[State, tuple[str, ...]]] = {
     (_S.STOPPING, _I.END): (_S.ENDED, _FINISH),
     (_S.STOPPING, _I.DETACH): (_S.DETACHED, _LEAVE),
     (_S.WAITING, _I.START): (_S.STARTING, ("notify", "start_process")),
-    (_S.WAITING, _I.STOP): (_S.ENDED, _FINISH),
     (_S.WAITING, _I.END): (_S.ENDED, _FINISH),
     (_S.WAITING, _I.DETACH): (_S.DETACHED, _LEAVE),
 }

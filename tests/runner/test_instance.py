@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from twisted.internet.defer import Deferred
+from twisted.logger import capturedLogs
 
 from tests.runner.recording_host import (
     AIRBORNE,
@@ -295,8 +296,11 @@ def test_stopped_while_it_waits_it_does_not_come_back(host):
     instance = host.run()
     host.child.on_end(1)
     ended = instance.when_ended()
-    instance.stop(STOPPING)
+    with capturedLogs() as logs:
+        instance.stop(STOPPING)
+    assert [(each["code"], each["cause"]) for each in logs] == [("ended", STOPPING.code)]
     assert ended.called and instance.state is State.ENDED
+    assert instance.last_end == STOPPING
     host.clock.advance(100)
     assert len(host.children) == 1
 
