@@ -183,6 +183,6 @@ class Proxy:
         now_s = self._poller.tick()
         for acceptor in self._acceptors:
             acceptor.sweep(now_s)
-        self.registry.sweep(now_s)
+        self.registry.sweep()
         self._quota.update(self.registry)
         self._poller.reap()

@@ -1,6 +1,7 @@
 """All aircraft with connections, by name; ``handshake.py`` admits a second one of a name."""
 
 from collections.abc import Callable
+from functools import partial
 
 from up.log import Limited
 from up.protocols.proxy_lines import FULL, HelloError
@@ -14,6 +15,8 @@ LOG_INTERVAL_S = 10.0
 """Minimum time between two log lines of one kind about one aircraft."""
 MAX_LOG_KEYS = 100
 """More kinds than this in one interval share one line."""
+SWEPT, MAX_STEPS = 16, 50
+"""The least number of aircraft in a step of a sweep, and the most steps of one."""
 
 
 @dataclass(slots=True)
@@ -47,6 +50,7 @@ class AircraftRegistry:
         self._make = make
         self.limits = limits
         self._sessions: dict[str, AircraftSession] = {}
+        self._unswept: list[AircraftSession] = []
         self._gone = Totals()
 
     def __len__(self) -> int:
@@ -86,15 +90,25 @@ class AircraftRegistry:
         ):
             raise HelloError(FULL, "too many grounds for this aircraft")
 
-    def sweep(self, now_s: float) -> None:
-        """Detect silent peers, and remove aircraft without connections."""
-        for name, session in list(self._sessions.items()):
+    def sweep(self) -> None:
+        """Detect silent peers, and remove aircraft without connections: lines go in between."""
+        if not self._unswept and self._sessions:
+            self._unswept = self.aircraft()
+            self._sweep_some(max(SWEPT, len(self._unswept) // MAX_STEPS))
+
+    def _sweep_some(self, count: int) -> None:
+        some, self._unswept = self._unswept[:count], self._unswept[count:]
+        if self._unswept:
+            self._poller.do_later(partial(self._sweep_some, count))
+        now_s = self._poller.now_s
+        for session in some:
             session.grounds.keep_paused_alive(now_s)
             session.sweep()
             if session.is_deserted(now_s):
                 session.close()
                 self._gone.add(session)
-                del self._sessions[name]
+                del self._sessions[session.name]
+        self._poller.reap()
 
     def stop(self) -> None:
         self._log.stop()
