@@ -73,7 +73,9 @@ def hop_rows(servers: Any, nodes: Any, rounds: int, seconds: float) -> Iterable[
         ):
             ours, least_us = ([sum(run[parts]) for run in runs] for runs in (far, near))
             name = f"cluster, {load}: CPU of a round trip, {what}"
-            yield compared(name, "us", ours, "pairs of one node", least_us, Limit(limit))
+            # At full load they relay at different rates: more lines come together at one node.
+            judged = None if load == FULL else Limit(limit)
+            yield compared(name, "us", ours, "pairs of one node", least_us, judged)
 
 
 @contextmanager
