@@ -31,7 +31,7 @@ HEARTBEAT_S = 2.0
 """A watch that gets neither entries nor heartbeats for twice as long begins again."""
 WATCH_RETRY_S = 1.0
 CONSUMER_LIMIT_S = 1.0
-"""NATS also lets servers send entries that have died within the last minute: another may answer."""
+"""For the server that NATS chooses to send the entries: for a minute it may choose a dead one."""
 _log = UpLogger.get_logger("cluster")
 
 

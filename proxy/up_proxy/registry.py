@@ -15,7 +15,7 @@ LOG_INTERVAL_S = 10.0
 """Minimum time between two log lines of one kind about one aircraft."""
 MAX_LOG_KEYS = 100
 """More kinds than this in one interval share one line."""
-SWEPT, MAX_STEPS = 16, 50
+MIN_STEP, MAX_STEPS = 16, 50
 """The least number of aircraft in a step of a sweep, and the most steps of one."""
 
 
@@ -94,7 +94,7 @@ class AircraftRegistry:
         """Detect silent peers, and remove aircraft without connections: lines go in between."""
         if not self._unswept and self._sessions:
             self._unswept = self.aircraft()
-            self._sweep_some(max(SWEPT, len(self._unswept) // MAX_STEPS))
+            self._sweep_some(max(MIN_STEP, len(self._unswept) // MAX_STEPS))
 
     def _sweep_some(self, count: int) -> None:
         some, self._unswept = self._unswept[:count], self._unswept[count:]

@@ -8,7 +8,7 @@ from twisted.logger import capturedLogs
 
 from up_proxy.config import LimitsConfig
 from up_proxy.poller import Poller
-from up_proxy.registry import MAX_STEPS, SWEPT, AircraftRegistry
+from up_proxy.registry import MAX_STEPS, MIN_STEP, AircraftRegistry
 
 
 class Session:
@@ -55,27 +55,27 @@ def counts(sessions):
 
 
 def test_a_few_aircraft_at_a_time_and_each_once():
-    registry, sessions, finish = swept(3 * SWEPT + 1)
+    registry, sessions, finish = swept(3 * MIN_STEP + 1)
     sessions[-1].is_gone = True
     registry.sweep()
-    assert counts(sessions) == [(1, SWEPT), (0, 2 * SWEPT + 1)]
+    assert counts(sessions) == [(1, MIN_STEP), (0, 2 * MIN_STEP + 1)]
     registry.sweep()  # the next one is due before the end of this one
-    assert counts(sessions) == [(1, SWEPT), (0, 2 * SWEPT + 1)]
+    assert counts(sessions) == [(1, MIN_STEP), (0, 2 * MIN_STEP + 1)]
     finish()
-    assert counts(sessions) == [(1, 3 * SWEPT + 1)]
+    assert counts(sessions) == [(1, 3 * MIN_STEP + 1)]
     assert registry.aircraft() == sessions[:-1]
     registry.sweep()
     finish()
-    assert counts(sessions) == [(2, 3 * SWEPT), (1, 1)]
+    assert counts(sessions) == [(2, 3 * MIN_STEP), (1, 1)]
 
 
 def test_a_bug_in_one_costs_the_rest_of_its_step_alone():
-    registry, sessions, finish = swept(3 * SWEPT)
-    sessions[SWEPT].is_broken = True
+    registry, sessions, finish = swept(3 * MIN_STEP)
+    sessions[MIN_STEP].is_broken = True
     with capturedLogs() as logs:
         registry.sweep()
         finish()
-    assert counts(sessions) == [(1, SWEPT + 1), (0, SWEPT - 1), (1, SWEPT)]
+    assert counts(sessions) == [(1, MIN_STEP + 1), (0, MIN_STEP - 1), (1, MIN_STEP)]
     assert [each["code"] for each in logs] == ["proxy_bug"]
 
 

@@ -26,7 +26,7 @@ CONNECT_LIMIT_S = 10.0
 POLL_S = 0.25
 ANSWER_S = 5.0
 READ_S = 12.0
-"""For the entries: NATS may let a server send them that has just died, and must be asked again."""
+"""For all entries: time to repeat the request if NATS chooses a dead server to send them."""
 KINDS = {"aircraft": "proxy", "instance": "runner"}
 """The keys of the leases, and the kind of member that holds them."""
 

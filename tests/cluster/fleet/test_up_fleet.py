@@ -114,7 +114,7 @@ def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, 
 
 
 def test_the_list_after_the_death_of_a_nats_server(tmp_path):
-    """NATS still wants it to send entries, for up to a minute."""
+    """NATS may choose it to send the entries, for up to a minute."""
     (tmp_path / "nats").mkdir()
     with NatsServers(tmp_path / "nats") as servers, Nodes(servers, tmp_path, 1) as nodes:
         fleet = UpFleet(tmp_path / "fleet", servers.urls)
