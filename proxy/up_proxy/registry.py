@@ -2,21 +2,23 @@
 
 from collections.abc import Callable
 from functools import partial
+from math import ceil
 
 from up.log import Limited
 from up.protocols.proxy_lines import FULL, HelloError
 from up.quick_dataclass import dataclass
-from up.system.clock import Clock
+from up.system.clock import Clock, Timer, cancel
 from up_proxy.aircraft import AircraftSession
 from up_proxy.config import LimitsConfig
+from up_proxy.loop_tick import TICK_S
 from up_proxy.poller import Poller
 
 LOG_INTERVAL_S = 10.0
 """Minimum time between two log lines of one kind about one aircraft."""
 MAX_LOG_KEYS = 100
 """More kinds than this in one interval share one line."""
-MIN_STEP, MAX_STEPS = 16, 50
-"""The least number of aircraft in a step of a sweep, and the most steps of one."""
+STEP_AIRCRAFT, MAX_STEPS = 16, 50
+"""Aircraft in a step of a sweep, about half a millisecond, until there are MAX_STEPS of them."""
 
 
 @dataclass(slots=True)
@@ -45,12 +47,14 @@ class AircraftRegistry:
         limits: LimitsConfig,
         make: Callable[[str, Poller, Limited], AircraftSession],
     ) -> None:
+        self._clock = clock
         self._poller = poller
         self._log = Limited(clock, LOG_INTERVAL_S, MAX_LOG_KEYS)
         self._make = make
         self.limits = limits
         self._sessions: dict[str, AircraftSession] = {}
-        self._unswept: list[AircraftSession] = []
+        self._steps_left = 0
+        self._timers: list[Timer] = []
         self._gone = Totals()
 
     def __len__(self) -> int:
@@ -91,17 +95,30 @@ class AircraftRegistry:
             raise HelloError(FULL, "too many grounds for this aircraft")
 
     def sweep(self) -> None:
-        """Detect silent peers, and remove aircraft without connections: lines go in between."""
-        if not self._unswept and self._sessions:
-            self._unswept = self.aircraft()
-            self._sweep_some(max(MIN_STEP, len(self._unswept) // MAX_STEPS))
+        """Detect silent peers, and remove aircraft without connections, within TICK_S.
 
-    def _sweep_some(self, count: int) -> None:
-        some, self._unswept = self._unswept[:count], self._unswept[count:]
-        if self._unswept:
-            self._poller.do_later(partial(self._sweep_some, count))
+        A few at a time, spread over this time, and lines go in between: no line waits for the
+        whole, nor does the other work of a full core.
+        """
+        if self._steps_left or not self._sessions:
+            return
+        everyone = self.aircraft()
+        count = self._steps_left = min(MAX_STEPS, ceil(len(everyone) / STEP_AIRCRAFT))
+        self._timers = [
+            self._clock.callLater(
+                TICK_S * number / count,
+                self._poller.do_later,
+                partial(self._sweep_some, everyone[number::count]),
+            )
+            for number in range(count)
+        ]
+
+    def _sweep_some(self, sessions: list[AircraftSession]) -> None:
+        self._steps_left -= 1
+        if not self._steps_left:
+            self._timers.clear()  # they have references to all aircraft
         now_s = self._poller.now_s
-        for session in some:
+        for session in sessions:
             session.grounds.keep_paused_alive(now_s)
             session.sweep()
             if session.is_deserted(now_s):
@@ -111,4 +128,5 @@ class AircraftRegistry:
         self._poller.reap()
 
     def stop(self) -> None:
+        cancel(*self._timers)
         self._log.stop()

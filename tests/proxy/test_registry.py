@@ -1,14 +1,14 @@
 """The sweep of many aircraft, in steps between the events of the poller."""
 
-import itertools
 from types import SimpleNamespace
 
 from twisted.internet.testing import MemoryReactorClock
 from twisted.logger import capturedLogs
 
 from up_proxy.config import LimitsConfig
+from up_proxy.loop_tick import TICK_S
 from up_proxy.poller import Poller
-from up_proxy.registry import MAX_STEPS, MIN_STEP, AircraftRegistry
+from up_proxy.registry import MAX_STEPS, STEP_AIRCRAFT, AircraftRegistry
 
 
 class Session:
@@ -36,50 +36,73 @@ class Session:
 
 
 def swept(count):
-    """Return registry, sessions, and what does the next steps until none is left."""
+    """Return registry, sessions, and what moves the clock by a share of the time of a sweep."""
     clock = MemoryReactorClock()
     poller = Poller(clock, clock.seconds)
     poller.busy_poll_s = 0.0
     registry = AircraftRegistry(clock, poller, LimitsConfig(aircraft=count), Session)
     sessions = [registry.session(f"a{number}") for number in range(count)]
 
-    def finish():
-        while clock.getDelayedCalls():
-            clock.advance(0)
+    def wait(share=1.0):
+        clock.advance(TICK_S * share)
+        clock.advance(0)
 
-    return registry, sessions, finish
+    return registry, sessions, wait
 
 
-def counts(sessions):
-    return [(each, len(list(row))) for each, row in itertools.groupby(s.swept for s in sessions)]
+def swept_times(sessions, times):
+    return sum(each.swept == times for each in sessions)
 
 
 def test_a_few_aircraft_at_a_time_and_each_once():
-    registry, sessions, finish = swept(3 * MIN_STEP + 1)
+    count = 3 * STEP_AIRCRAFT
+    registry, sessions, wait = swept(count)
     sessions[-1].is_gone = True
     registry.sweep()
-    assert counts(sessions) == [(1, MIN_STEP), (0, 2 * MIN_STEP + 1)]
-    registry.sweep()  # the next one is due before the end of this one
-    assert counts(sessions) == [(1, MIN_STEP), (0, 2 * MIN_STEP + 1)]
-    finish()
-    assert counts(sessions) == [(1, 3 * MIN_STEP + 1)]
+    for step, share in enumerate((0.0, 0.34, 0.34), start=1):
+        wait(share)
+        assert swept_times(sessions, 1) == step * STEP_AIRCRAFT
     assert registry.aircraft() == sessions[:-1]
     registry.sweep()
-    finish()
-    assert counts(sessions) == [(2, 3 * MIN_STEP), (1, 1)]
+    for _ in range(3):
+        wait(0.34)
+    assert swept_times(sessions, 2) == count - 1 and sessions[-1].swept == 1
+
+
+def test_none_begins_before_the_end_of_the_last():
+    registry, sessions, wait = swept(2 * STEP_AIRCRAFT)
+    for _ in range(2):
+        registry.sweep()
+        wait(0.0)
+        assert swept_times(sessions, 1) == STEP_AIRCRAFT
+    wait()
+    assert swept_times(sessions, 1) == 2 * STEP_AIRCRAFT
 
 
 def test_a_bug_in_one_costs_the_rest_of_its_step_alone():
-    registry, sessions, finish = swept(3 * MIN_STEP)
-    sessions[MIN_STEP].is_broken = True
+    registry, sessions, wait = swept(3 * STEP_AIRCRAFT)
+    sessions[1].is_broken = True
     with capturedLogs() as logs:
         registry.sweep()
-        finish()
-    assert counts(sessions) == [(1, MIN_STEP + 1), (0, MIN_STEP - 1), (1, MIN_STEP)]
+        for _ in range(3):
+            wait(0.34)
+    assert swept_times(sessions, 1) == 2 * STEP_AIRCRAFT + 1
     assert [each["code"] for each in logs] == ["proxy_bug"]
+    registry.sweep()
+    wait(0.0)
+    assert sum(each.swept == 2 for each in sessions) == STEP_AIRCRAFT
 
 
 def test_thousands_take_no_more_steps():
-    registry, sessions, _ = swept(100 * MAX_STEPS)
+    registry, sessions, wait = swept(100 * MAX_STEPS)
     registry.sweep()
-    assert counts(sessions) == [(1, 100), (0, 100 * (MAX_STEPS - 1))]
+    wait(0.0)
+    assert swept_times(sessions, 1) == 100
+
+
+def test_the_end_stops_a_sweep():
+    registry, sessions, wait = swept(2 * STEP_AIRCRAFT)
+    registry.sweep()
+    registry.stop()
+    wait()
+    assert swept_times(sessions, 0) == 2 * STEP_AIRCRAFT
