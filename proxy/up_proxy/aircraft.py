@@ -46,6 +46,8 @@ class AircraftSession(Owner):
 
     def close(self) -> None:
         """End its use: it is deserted."""
+        # Without this cycle of references it is freed now, not in a slow collection of all objects.
+        del self.grounds
 
     @property
     def own_grounds(self) -> int:

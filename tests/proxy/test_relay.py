@@ -1,7 +1,11 @@
 """Whole lines, also with slow peers and peers that leave in the middle of one."""
 
+import gc
+import weakref
+
 import pytest
 
+from up.protocols.control_lease import ALIVE_S
 from up_proxy.connection import HIGH_WATER_BYTES, LINE_MAX_BYTES
 from up_proxy.listener import SEND_BUFFER_BYTES
 
@@ -156,3 +160,18 @@ def test_a_listener_may_flood_without_being_relayed_or_kept(bench):
     assert air.line() == "good\n"
     assert air.heard == b""
     assert bench.aircraft().rejected_lines == 50
+
+
+def test_an_aircraft_that_left_is_freed_without_the_collector(bench):
+    gc.disable()
+    try:
+        air, _ = bench.hello_air()
+        ground, _ = bench.hello_ground()
+        left = weakref.ref(bench.aircraft())
+        air.close()
+        ground.close()
+        bench.pass_time(ALIVE_S + 1.0)
+        assert not bench.proxy.registry.aircraft()
+        assert left() is None
+    finally:
+        gc.enable()

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from up.system.clock import Clock, Timer, cancel
 
 PERIOD_S = 1.0
-FULL_COLLECTION_EVERY = 300
+FULL_PERIOD_S = 300.0
 
 
 @contextmanager
@@ -32,8 +32,9 @@ def frozen_imports() -> Iterator[None]:
 class GcScheduler:
     """Replaces the automatic collector once the program has started."""
 
-    def __init__(self, clock: Clock) -> None:
+    def __init__(self, clock: Clock, full_period_s: float = FULL_PERIOD_S) -> None:
         self._clock = clock
+        self._full_every = round(full_period_s / PERIOD_S)
         self._rounds = 0
         self._call: Timer | None = None
 
@@ -55,4 +56,4 @@ class GcScheduler:
     def _collect(self) -> None:
         self._schedule()
         self._rounds += 1
-        gc.collect(1 if self._rounds % FULL_COLLECTION_EVERY else 2)
+        gc.collect(1 if self._rounds % self._full_every else 2)

@@ -152,6 +152,7 @@ class ClusterNode:
         return session
 
     def forget(self, session: ClusterSession) -> None:
+        self.batches.discard(session)
         if self._sessions.get(session.name) is session:
             del self._sessions[session.name]
 

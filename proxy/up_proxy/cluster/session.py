@@ -53,10 +53,8 @@ class ClusterSession(AircraftSession):
         # Of many aircraft that came together not all repeat in the same round.
         self._repeated_s = poller.now_s - REPEAT_S * phase_of(name)
         self._beaconed: tuple[bool, int | None] = (False, None)
-        kinds = "down", "up", "control"
-        subjects = self._down, self._up, control = [
-            f"{node.subject(name)}.{kind}" for kind in kinds
-        ]
+        base = node.subject(name)
+        subjects = self._down, self._up, control = f"{base}.down", f"{base}.up", f"{base}.control"
         self._send_down, self.send_up, self._publish_control = map(node.sender, subjects)
         self._control_newest_s: dict[str, float] = {}
         self._control_sid = node.subscribe(control, self._on_control, self._control_newest_s)
@@ -90,6 +88,8 @@ class ClusterSession(AircraftSession):
         lease, self.lease = self.lease, None
         if lease is not None:
             self._node.release(lease, None)
+        del self.guests, self._remotes
+        super().close()
 
     # The lease.
 

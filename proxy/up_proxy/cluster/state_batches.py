@@ -32,6 +32,12 @@ class StateBatches:
             self._send_states(node, waiting)
             waiting.clear()
 
+    def discard(self, session: "ClusterSession") -> None:
+        """Send no state of a session that ends."""
+        for waiting in self._waiting.values():
+            if session in waiting:
+                waiting.remove(session)
+
     def _send_rest(self) -> None:
         waiting = dict(self._waiting)
         self._waiting.clear()

@@ -1,10 +1,14 @@
 """A node of a cluster, without NATS."""
 
+import gc
+import weakref
 from pathlib import Path
 
+import pytest
 from twisted.internet.testing import MemoryReactorClock
 from twisted.logger import capturedLogs
 
+from up.log import Limited
 from up_cluster.config import ClusterConfig
 from up_proxy.cluster.node import ClusterNode
 from up_proxy.cluster.node_messages import ENVELOPE
@@ -14,11 +18,25 @@ from up_proxy.poller import Poller
 from up_proxy.tenant_quota import TenantQuota
 
 
-def test_a_bug_costs_one_message_of_another_node():
-    clock = MemoryReactorClock()
-    quota = TenantQuota(clock, QuotaConfig())
+@pytest.fixture
+def clock():
+    return MemoryReactorClock()
+
+
+@pytest.fixture
+def poller(clock):
+    found = Poller(clock, clock.seconds)
+    found.busy_poll_s = 0.0
+    return found
+
+
+@pytest.fixture
+def node(clock, poller):
     config = ClusterConfig(servers="nats://127.0.0.1")
-    node = ClusterNode(clock, Poller(clock, clock.seconds), config, Path(), quota)
+    return ClusterNode(clock, poller, config, Path(), TenantQuota(clock, QuotaConfig()))
+
+
+def test_a_bug_costs_one_message_of_another_node(clock, node):
     taken = []
 
     def take(message):
@@ -33,3 +51,19 @@ def test_a_bug_costs_one_message_of_another_node():
             clock.advance(2 * SETTLE_S)
     assert taken == [b"next"]
     assert [each["code"] for each in logs if "log_failure" in each] == ["cluster_bug"]
+
+
+def test_an_aircraft_that_left_is_freed_without_the_collector(clock, poller, node):
+    gc.disable()
+    try:
+        session = node.new_session("a", poller, Limited(clock, 1.0))
+        left = weakref.ref(session)
+        session.close()
+        node.batches.add("other", session)
+        del session
+        clock.advance(0)
+        clock.advance(0)
+        assert left() is None
+        assert node._report({})["aircraft"] == []
+    finally:
+        gc.enable()

@@ -30,6 +30,19 @@ def test_each_state_is_sent_once_to_each_of_its_nodes():
         sent.clear()
 
 
+def test_one_that_ends_sends_no_state():
+    clock, sent = Clock(), []
+    batches = StateBatches(clock, lambda node, body: sent.append(body))
+    gone, here = Aircraft(name="gone", fence=1), Aircraft(name="here", fence=1)
+    for each in (gone, here):
+        batches.add("one", each)
+    batches.add("two", gone)
+    batches.discard(gone)
+    batches.add("one", here)
+    clock.advance(0)
+    assert sent == [b'here 1 "one"\n' * 2]
+
+
 def test_a_state_is_that_of_its_sending():
     clock, sent = Clock(), []
     batches = StateBatches(clock, lambda node, body: sent.append(body))

@@ -6,7 +6,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from up.system import gc_scheduler
-from up.system.gc_scheduler import FULL_COLLECTION_EVERY, GcScheduler, frozen_imports
+from up.system.gc_scheduler import FULL_PERIOD_S, PERIOD_S, GcScheduler, frozen_imports
 
 
 @pytest.fixture
@@ -48,11 +48,15 @@ def test_it_takes_over_and_gives_back(clock):
 
 
 def test_young_garbage_every_second_and_old_now_and_then(clock, rounds):
-    collector = GcScheduler(clock)
-    collector.start()
-    clock.pump([1.0] * FULL_COLLECTION_EVERY)
-    collector.stop()
-    assert rounds == [2, *[1] * (FULL_COLLECTION_EVERY - 1), 2]
+    for collector, full_every in (
+        (GcScheduler(clock), round(FULL_PERIOD_S / PERIOD_S)),
+        (GcScheduler(clock, full_period_s=3 * PERIOD_S), 3),
+    ):
+        collector.start()
+        clock.pump([PERIOD_S] * full_every)
+        collector.stop()
+        assert rounds == [2, *[1] * (full_every - 1), 2]
+        rounds.clear()
 
 
 def test_cycles_that_modules_make_are_really_freed(clock):
