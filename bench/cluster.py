@@ -25,7 +25,7 @@ from tests.support.reactor import until as until_later
 from tests.support.waiting import until
 
 ROUNDS, QUICK_ROUNDS = 5, 1
-SECONDS, QUICK_SECONDS = 3.0, 1.0
+SECONDS, QUICK_SECONDS = 5.0, 1.0
 ADDED_P50_US, ADDED_P99_US = 800.0, 3000.0
 CPU_RATIO, CPU_RATIO_WITH_NATS = 2.2, 3.7
 GAP_S, NEW_LEASE_S = 1.0, 10.0

@@ -3,20 +3,24 @@
 Reads one JSON object from stdin: {"mode": "proxy" | "forward" | "direct", "send": port,
 "echo": port, "pairs": n, "rate_hz": r, "seconds": s, "size": bytes}; prints one JSON object with
 the round trips' percentiles in microseconds, and of `one way`, those from the sending end to the
-echo. `proxy`: both ends dial the relay and say hello; with "nodes", a list of [send, echo], the
-pairs are spread over them; `forward`: the relay dials our echo port; `direct`: no relay. With
-"tls", the path of a folder of certificates, both legs are TLS. With "waits" it sleeps between
-events, for programs that share its core.
+echo, as medians over the seconds: one in which the machine is busy otherwise does not spoil them.
+`proxy`: both ends dial the relay and say hello; with "nodes", a list of [send, echo], the pairs are
+spread over them; `forward`: the relay dials our echo port; `direct`: no relay. With "tls", the path
+of a folder of certificates, both legs are TLS. With "waits" it sleeps between events, for programs
+that share its core.
 """
 
 import itertools
 import json
+import math
 import os
 import select
 import socket
 import ssl
+import statistics
 import sys
 import time
+from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +31,9 @@ WARM_UP_S = 1.0
 MIN_TRIPS = 200
 EXTRA_S = 10.0
 """A busy machine gets this much longer to complete the least number of round trips."""
+SECOND_NS = 10**9
+LOST_NS = 2 * SECOND_NS
+"""A line without an answer for so long was lost, for example before its ground had control."""
 
 
 _NOT_READY = (BlockingIOError, ssl.SSLWantReadError)
@@ -81,10 +88,10 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
 
 def measure(
     job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
-) -> tuple[list[int], list[int]]:
+) -> tuple[list[int], list[list[int]]]:
     """Send at the requested rate, evenly spread over the pairs; return round trips, one way; ns.
 
-    On a machine that is too busy for any there are none.
+    The latter in a list for each second. On a machine that is too busy for any there are none.
     """
     poll = select.epoll()
     echoes = {echo.fileno(): (echo, send.fileno()) for send, echo in ends}
@@ -103,7 +110,7 @@ def measure(
     line = b"x" * (job["size"] - 1) + b"\n"
     sent_ns = dict.fromkeys(senders, 0)
     trips: list[int] = []
-    ways: list[int] = []
+    ways: defaultdict[int, list[int]] = defaultdict(list)
     step_ns = int(1e9 / (job["rate_hz"] * len(order)))
     begin_ns = time.perf_counter_ns()
     warm_ns = begin_ns + int(WARM_UP_S * 1e9)
@@ -114,7 +121,7 @@ def measure(
     while True:
         now_ns = clock()
         if now_ns >= end_ns and (len(trips) >= MIN_TRIPS or now_ns >= limit_ns):
-            return trips, ways
+            return trips, list(ways.values())
         if not warm and now_ns >= warm_ns:
             warm = True
             print(json.dumps({"warm": True}), flush=True)
@@ -122,7 +129,7 @@ def measure(
             peer = order[turn]
             turn = (turn + 1) % len(order)
             due_ns += step_ns
-            if not sent_ns[peer.fileno()]:
+            if now_ns - sent_ns[peer.fileno()] > LOST_NS:
                 sent_ns[peer.fileno()] = clock()
                 peer.send(line)
         if job.get("waits"):  # epoll's own timeout is in milliseconds
@@ -134,7 +141,8 @@ def measure(
                     end, sender = echo
                     data = end.recv(65536)
                     if sent_ns[sender] > warm_ns:
-                        ways.append(clock() - sent_ns[sender])
+                        now_ns = clock()
+                        ways[(now_ns - warm_ns) // SECOND_NS].append(now_ns - sent_ns[sender])
                     end.send(data)
                     continue
                 answer = senders[descriptor].recv(65536)
@@ -146,13 +154,20 @@ def measure(
                 sent_ns[descriptor] = 0
 
 
+def of_seconds(ways: list[list[int]], share: float) -> float:
+    """Return the median of the seconds' percentiles."""
+    found = [percentile(sorted(each), share) for each in ways]
+    return statistics.median(found) if found else math.nan
+
+
 def main() -> None:
     job = json.loads(sys.stdin.readline())
     if "cpu" in job:
         os.sched_setaffinity(0, {job["cpu"]})
     ends = pairs(job)
     print(json.dumps({"ready": True}), flush=True)
-    trips, ways = map(sorted, measure(job, ends))
+    trips, ways = measure(job, ends)
+    trips.sort()
     print(json.dumps({"done": True}), flush=True)
     sys.stdin.readline()  # the connections stay until the relay's CPU time is read
     figures = {
@@ -160,8 +175,8 @@ def main() -> None:
         "p50_us": percentile(trips, 0.5) / 1e3,
         "p99_us": percentile(trips, 0.99) / 1e3,
         "longest_us": percentile(trips, 1.0) / 1e3,
-        "one_way_p50_us": percentile(ways, 0.5) / 1e3,
-        "one_way_p99_us": percentile(ways, 0.99) / 1e3,
+        "one_way_p50_us": of_seconds(ways, 0.5) / 1e3,
+        "one_way_p99_us": of_seconds(ways, 0.99) / 1e3,
     }
     print(json.dumps(figures), flush=True)
 
