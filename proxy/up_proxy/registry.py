@@ -17,7 +17,7 @@ LOG_INTERVAL_S = 10.0
 """Minimum time between two log lines of one kind about one aircraft."""
 MAX_LOG_KEYS = 100
 """More kinds than this in one interval share one line."""
-STEP_AIRCRAFT, MAX_STEPS = 16, 50
+STEP_AIRCRAFT, MAX_STEPS = 32, 50
 """Aircraft in a step of a sweep, about half a millisecond, until there are MAX_STEPS of them."""
 
 
