@@ -46,7 +46,7 @@ class AircraftSession(Owner):
 
     def close(self) -> None:
         """End its use: it is deserted."""
-        # Without this cycle of references it is freed now, not in a slow collection of all objects.
+        # They refer to each other: without this only a full garbage collection would free it.
         del self.grounds
 
     @property

@@ -19,7 +19,7 @@ from up_proxy.listener import StartError
 
 _SPARE_DESCRIPTORS = 64
 FULL_COLLECTION_S = 24 * 3600.0
-"""With thousands of aircraft one holds up all lines for a tenth of a second, and finds little."""
+"""With thousands of aircraft one holds up all lines for tenths of a second, and finds little."""
 _log = UpLogger.get_logger("proxy")
 
 
