@@ -5,6 +5,7 @@ import select
 import socket
 from collections import Counter
 from contextlib import suppress
+from sys import intern
 
 from up.log import Limited, UpLogger
 from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
@@ -113,7 +114,8 @@ class Acceptor:
                     self._pause()
                     return
                 continue  # the peer closed before it was accepted
-            self._accept(peer, plain(address[0]))
+            # Many share an address, those of a mobile network too.
+            self._accept(peer, intern(plain(address[0])))
 
     def fail(self, reason: str) -> None:
         """Pause: one failure must not close the listening socket."""

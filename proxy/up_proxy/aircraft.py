@@ -24,6 +24,23 @@ _log = UpLogger.get_logger("proxy")
 class AircraftSession(Owner):
     """Owns the airborne connection of one aircraft and relays it to all its grounds."""
 
+    __slots__ = (
+        "__weakref__",
+        "_is_watch_due",
+        "_limited",
+        "_poller",
+        "_shown_online",
+        "_shown_owner",
+        "_watch_told_s",
+        "air_bytes",
+        "air_lease",
+        "dropped_lines",
+        "ground_bytes",
+        "grounds",
+        "name",
+        "rejected_lines",
+    )
+
     def __init__(self, name: str, poller: Poller, limited: Limited) -> None:
         self.name = name
         self._poller = poller
