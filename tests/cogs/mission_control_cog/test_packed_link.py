@@ -12,6 +12,7 @@ from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.protocols.attitude_frame import is_attitude
 from up.protocols.binary_line import to_body
+from up_proxy.aircraft import AircraftSession
 
 RECOVERY_S = 1.0
 
@@ -222,9 +223,9 @@ def test_one_ground_that_reads_no_attitude_frames_gets_none_and_nor_do_the_other
     assert {each.data["rates"]["roll"] for _, each in ground.frames[before:]} == {1.0}
 
 
-def test_an_old_proxys_aircraft_sends_whole_frames(net, tmp_path):
+def test_an_old_proxys_aircraft_sends_whole_frames(net, tmp_path, monkeypatch):
     aircraft = Flying(net, tmp_path / "a")
-    net.aircraft("a").report_watchers = lambda **_: None
+    monkeypatch.setattr(AircraftSession, "report_watchers", lambda *_, **__: None)
     aircraft.provider._uplink._link.watchers = None
     plain, _ = net.hello_ground("a", "listen")
     net.run(2)
