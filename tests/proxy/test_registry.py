@@ -90,7 +90,7 @@ def test_a_bug_in_one_costs_the_rest_of_its_step_alone():
     assert [each["code"] for each in logs] == ["proxy_bug"]
     registry.sweep()
     wait(0.0)
-    assert sum(each.swept == 2 for each in sessions) == STEP_AIRCRAFT
+    assert swept_times(sessions, 2) == STEP_AIRCRAFT
 
 
 def test_thousands_take_no_more_steps():

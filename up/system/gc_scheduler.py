@@ -30,7 +30,10 @@ def frozen_imports() -> Iterator[None]:
 
 
 class GcScheduler:
-    """Replaces the automatic collector once the program has started."""
+    """Replaces the automatic collector once the program has started.
+
+    `full_period_s`: time between two collections of all objects that are not frozen.
+    """
 
     def __init__(self, clock: Clock, full_period_s: float = FULL_PERIOD_S) -> None:
         self._clock = clock
