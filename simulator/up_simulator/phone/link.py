@@ -95,6 +95,14 @@ class PythonHandset:
             found = self._find_orientation
             self._services.append(self._service(found, lambda: _OrientationLink(phone, self)))
         self._is_udp = orientation == "udp"
+        self._has_orientation = orientation != "off"
+
+    @property
+    def is_connected(self) -> bool:
+        """Return whether all of its links are open."""
+        phone = self._phone
+        has_orientation = phone.send_orientation is not None or not self._has_orientation
+        return phone.send is not None and has_orientation
 
     def start(self) -> None:
         for service in self._services:

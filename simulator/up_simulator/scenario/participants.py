@@ -210,6 +210,8 @@ class DaemonParticipants(Participants, ABC):
             return False
         if self.mavlink is not None and self.mavlink.newest_s is None:
             return False
+        if self.phone is not None and self.phone.is_plugged and not self.phone.handset.is_connected:
+            return False
         if self.scenario.board == "direct":
             return True
         if self.scenario.board == "betaflight":

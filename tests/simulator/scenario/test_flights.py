@@ -10,6 +10,8 @@ from tests.simulator.scenario.minimal import HEAD
 from tests.support.firmware import build_firmware
 from tests.support.waiting import HANG_S
 from up_simulator.firmware.imu_errors import drawn_errors
+from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.phone.address import NotFoundError
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.file import parse_scenario
 from up_simulator.scenario.result import Result, verdicts_of
@@ -175,3 +177,19 @@ def test_without_gps_the_position_becomes_stale_and_the_altitude_does_not():
     ages_ms = record.log.numbers("ground.age_ms.location")
     assert ages_ms[145] > 2000 > max(record.log.numbers("ground.age_ms.altitude"))
     assert ages_ms[-1] < 1000
+
+
+def test_a_flight_begins_only_when_the_phone_is_connected(monkeypatch):
+    find = InProcessPhone.find
+    attempts = []
+
+    async def find_late(phone):
+        attempts.append(phone)
+        if len(attempts) < 6:
+            raise NotFoundError("not yet")
+        return await find(phone)
+
+    monkeypatch.setattr(InProcessPhone, "find", find_late)
+    record = fly(HEAD + "raspilot: {runs: in process}\nground: {}\nphone: {}\n" + LEVEL + HELD)
+    assert len(attempts) == 6 and record.notes == {}
+    assert record.log.numbers("ground.android.connected")[0] == 1.0
