@@ -58,10 +58,14 @@ class FleetConfig:
     def problems(self) -> Iterator[tuple[str, str]]:
         if not _WORD.fullmatch(self.tenant):
             yield "tenant", "must be 1 to 32 of A-Z a-z 0-9 _ -"
-        for text in self.servers.split(",") if self.servers else ():
-            match = _SERVER.fullmatch(text.strip())
-            if match is None or not 0 < int(match[3] or DEFAULT_PORT) < 65536:
-                yield "servers", f"must be as in nats://a:4222,nats://b:4222, not {text.strip()}"
+        for text in map(str.strip, self.servers.split(",") if self.servers else ()):
+            match = _SERVER.fullmatch(text)
+            if "@" in text:
+                yield "servers", "may have no password: it belongs into the file of 'credentials'"
+            elif match is None or not 0 < int(match[3] or DEFAULT_PORT) < 65536:
+                yield "servers", f"must be as in nats://a:4222,nats://b:4222, not '{text}'"
+            elif text.startswith("tls:") and not self.tls:
+                yield "servers", f"{text} needs the folder 'tls'"
 
     def addresses(self) -> list[Server]:
         found = (_SERVER.fullmatch(text.strip()) for text in self.servers.split(","))

@@ -9,11 +9,7 @@ from typing import Any
 from twisted.application.internet import ClientService
 from twisted.internet.abstract import isIPAddress, isIPv6Address
 from twisted.internet.defer import CancelledError, Deferred
-from twisted.internet.endpoints import (
-    HostnameEndpoint,
-    TCP4ClientEndpoint,
-    TCP6ClientEndpoint,
-)
+from twisted.internet.endpoints import HostnameEndpoint, TCP4ClientEndpoint, TCP6ClientEndpoint
 from twisted.internet.error import ConnectionDone
 from twisted.internet.protocol import Factory, Protocol, connectionDone
 from twisted.python.failure import Failure
@@ -98,6 +94,8 @@ class NatsClient:
         self._requests: dict[str, Deferred[nats.Message]] = {}
         self.dropped = 0
         """Messages that were published but never left."""
+        self.failure: tuple[str, str] | None = None
+        """Code and reason of the last failed connection; None after a good one."""
 
     def start(self) -> None:
         self.subscribe(f"{self._inbox}.*", self._on_answer)
@@ -218,13 +216,15 @@ class NatsClient:
 
     def _log_lost(self, server: Server | str, code: str, reason: object) -> None:
         where = server if isinstance(server, str) else f"{server.host}:{server.port}"
+        text = str(reason).strip().rstrip(".")
+        self.failure = code, text
         self._limited.log(
             _log.warn,
             "no connection to NATS at {server}: {reason}",
             key=where,
             code=code,
             server=where,
-            reason=str(reason).strip().rstrip("."),
+            reason=text,
         )
 
     def _pause_s(self, failed_attempts: int) -> float:
@@ -241,7 +241,7 @@ class NatsClient:
 
     def on_ready(self, link: "NatsLink") -> None:
         """Use a link whose server has accepted CONNECT."""
-        self._link, self._ready_s = link, self._reactor.seconds()
+        self._link, self._ready_s, self.failure = link, self._reactor.seconds(), None
         subjects = [(subject, sid) for sid, (subject, _) in self._subscriptions.items()]
         link.send(b"".join(itertools.starmap(nats.subscribe, subjects)))
         _log.info("connected to NATS server {server}", code="nats_connected", server=link.server)
@@ -364,7 +364,9 @@ class NatsLink(Protocol):
             self.send(nats.PONG)
         elif isinstance(event, nats.Info):
             self.server = str(event.fields.get("server_name", self.server))
-            if not self._is_ready:
+            if event.fields.get("tls_required") and not self._client.options["tls_required"]:
+                self._fail("nats_refused", "it requires TLS: set 'tls'")
+            elif not self._is_ready:
                 self.send(nats.connect(self._client.options) + nats.PING)
             elif event.fields.get("ldm"):
                 self._fail("lame_duck", "the server is about to end")

@@ -73,6 +73,18 @@ def test_a_silent_server_is_left():
     assert link._failed[0] == "silent"
 
 
+def test_no_password_goes_to_a_server_that_requires_tls():
+    login = {"user": "club", "pass": "secret"}
+    client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 1)], name="test", login=login)
+    link = client._build()
+    transport = Transport("127.0.0.1")
+    link.makeConnection(transport)
+    link.dataReceived(b'INFO {"tls_required":true}\r\n')
+    assert transport.value() == b"" and transport.disconnected
+    link.connectionLost(Failure(ConnectionDone()))
+    assert client.failure[0] == "nats_refused"
+
+
 def test_subscriptions_that_change_during_the_handshake():
     client = nats_client.NatsClient(Clock(), [Server("127.0.0.1", 4222)], name="test")
     ended = client.subscribe("ended", print)

@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Sequence
 
-from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_USAGE
+from up.cli.option_parser import EXIT_INTERRUPTED, EXIT_USAGE
 from up.cli.parser import make_parser
 from up.errors import UserError
 from up.output import print_problems
@@ -24,15 +24,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status: int = values.carry_out(values)
     except UserError as error:
         return _fail(error, error.status)
-    except BrokenPipeError:
-        # The reader, such as 'head', has closed the pipe.
-        sys.stderr.close()
-        return EXIT_FAILED
-    except OSError as error:
-        where = f"{error.filename}: " if error.filename else ""
-        return _fail(
-            UserError(f"up: {where}{error.strerror or error}", "system_error"), EXIT_FAILED
-        )
     except KeyboardInterrupt:
         return _fail(UserError("interrupted", "interrupted"), EXIT_INTERRUPTED)
     return status

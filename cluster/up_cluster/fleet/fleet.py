@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import secrets
 from collections import defaultdict
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
@@ -66,15 +66,21 @@ def numbers_in(report: dict[str, Any], key: str) -> dict[str, float]:
 
 
 def leases_in(entries: Entries) -> Rows:
-    """Return who holds which aircraft."""
+    """Return who holds which aircraft; of a free one, with `is_free`, just its control is kept."""
     rows: Rows = []
     for kind in KINDS:
         for name, entry in entries[kind].items():
             record = parse_record(entry)
             if record is not None:
                 row = {"kind": kind, "aircraft": name, "id": record.node}
-                rows.append({**row, "host": str(record.data.get("host", ""))})
+                free = {"is_free": True} if record.data.get("air", "") is None else {}
+                rows.append({**row, "host": str(record.data.get("host", "")), **free})
     return rows
+
+
+def occupied(leases: Rows) -> Rows:
+    """Return the leases whose members should answer."""
+    return [row for row in leases if "is_free" not in row]
 
 
 class Fleet:
@@ -95,11 +101,7 @@ class Fleet:
 
         async def steps() -> Any:
             try:
-                self._client.start()
-                await self._wait_for(lambda: self._client.is_connected, CONNECT_LIMIT_S)
-                if not self._client.is_connected:
-                    text = f"no connection to NATS at {self._config.servers} (fleet.yml: servers)"
-                    raise FleetError(text, "no_connection")
+                await self._connect()
                 await self._check()
                 return await work()
             except (UnavailableError, RefusedError) as error:
@@ -118,6 +120,21 @@ class Fleet:
         if isinstance(result[0], Failure):
             result[0].raiseException()
         return result[0]
+
+    async def _connect(self) -> None:
+        """Raise FleetError without a connection; one that NATS refuses is not tried again."""
+        client = self._client
+        client.start()
+
+        def is_decided() -> bool:
+            code = client.failure[0] if client.failure else ""
+            return client.is_connected or code == "nats_refused" or code.startswith("tls_")
+
+        await self._wait_for(is_decided, CONNECT_LIMIT_S)
+        if not client.is_connected:
+            code, reason = client.failure or ("no_connection", "no answer")
+            text = f"no connection to NATS at {self._config.servers}: {reason}"
+            raise FleetError(f"{text} (fleet.yml: servers, credentials, tls)", code)
 
     async def _check(self) -> None:
         """Raise FleetError for a NATS that no proxy or runner of a cluster uses."""
@@ -149,7 +166,7 @@ class Fleet:
         wanted = entries["wanted"].keys()
         return {
             "members": members,
-            "lost": [row for row in leases if row["id"] not in known],
+            "lost": [row for row in occupied(leases) if row["id"] not in known],
             "orphans": sorted(wanted - held),
             "asleep": sorted(entries["asleep"].keys() - wanted),
         }
@@ -171,23 +188,24 @@ class Fleet:
         return {**found, "tenant": {"name": self._config.tenant, "usage": usage, "quota": quota}}
 
     async def where(self, aircraft: str, wait_s: float) -> dict[str, Any]:
-        """Return the members that hold an aircraft. Raises FleetError without one."""
+        """Return where an aircraft is, or is wanted. Raises FleetError if it is nowhere."""
         entries = await self._entries()
         leases = [each for each in leases_in(entries) if each["aircraft"] == aircraft]
         members = {each["id"]: each for each in await self._reports(wait_s, leases)}
         places = []
         for lease in leases:
             member = members.get(lease["id"], {})
-            row = next(
-                (each for each in member.get("aircraft", ()) if each["aircraft"] == aircraft),
-                {"state": "no answer"},
-            )
+            rows = (each for each in member.get("aircraft", ()) if each["aircraft"] == aircraft)
+            row = next(rows, {"state": "no answer"} if not member and occupied([lease]) else None)
+            if row is None:
+                continue
             place = {"id": lease["id"], "host": member.get("host", lease["host"])}
             places.append({**row, "kind": KINDS[lease["kind"]], **place})
+        if all(each["kind"] != "runner" for each in places):
+            state = next((key for key in ("wanted", "asleep") if aircraft in entries[key]), "")
+            if state:
+                places.append({"kind": "runner", "id": "", "host": "", "state": state})
         if not places:
-            if aircraft in entries["asleep"]:
-                text = f"{aircraft} sleeps: the next request of its phone starts it"
-                raise FleetError(text, "asleep", aircraft=aircraft)
             raise FleetError(f"no member holds {aircraft}", "unknown_aircraft", aircraft=aircraft)
         return {"aircraft": aircraft, "places": places}
 
@@ -231,8 +249,8 @@ class Fleet:
             raise FleetError(text, str(answer["code"]), member=member)
         return answer
 
-    async def _reports(self, wait_s: float, leases: Sequence[dict[str, Any]]) -> Rows:
-        """Return the answers of `wait_s`; of members that hold leases those of ANSWER_S."""
+    async def _reports(self, wait_s: float, leases: Rows) -> Rows:
+        """Return the answers of `wait_s`; of members that hold aircraft those of ANSWER_S."""
         found: Rows = []
         inbox = f"_INBOX.{secrets.token_hex(8)}"
 
@@ -245,7 +263,7 @@ class Fleet:
         request = json.dumps({"action": "report"}).encode()
         self._client.publish(self._member.subject("members"), request, reply=inbox)
         await deferLater(self._reactor, wait_s)
-        holders = {each["id"] for each in leases}
+        holders = {each["id"] for each in occupied(leases)}
         await self._wait_for(lambda: holders <= {each["id"] for each in found}, ANSWER_S)
         self._client.unsubscribe(sid)
         return sorted(found, key=lambda each: (each["kind"], each["host"], each["id"]))

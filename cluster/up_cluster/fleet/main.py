@@ -18,7 +18,6 @@ from up.cli.option_parser import (
     add_json_option,
     bounded_number,
 )
-from up.config import no_configuration
 from up.errors import UserError
 from up.log import start_logging
 from up.output import echo, print_problems
@@ -34,7 +33,8 @@ DESCRIPTION = """\
 Lists and controls the proxies and runners of a cluster.
 
 A member is one up-proxy (a relay node) or one up-runner (of a pool). fleet.yml
-has the keys of proxy.yml: cluster; its credentials decide which tenant is seen."""
+has the keys of 'cluster:' in proxy.yml except 'replicas', not below 'cluster:';
+tenant and credentials decide what is seen."""
 EPILOG = """\
 examples:
   up-fleet list                    every member, with what it holds
@@ -87,7 +87,7 @@ def make_parser() -> OptionParser:
 
 
 def _show_drain(answer: dict[str, Any]) -> list[str]:
-    return [f"{answer['id']} is drained: {len(answer['left'])} aircraft have left"]
+    return [f"{answer['id']} is drained; aircraft that have left it: {len(answer['left'])}"]
 
 
 def _show_kick(answer: dict[str, Any]) -> list[str]:
@@ -111,8 +111,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
     options = make_parser().parse_args(arguments)
     try:
-        if (nothing := no_configuration(options.config, [FLEET])) is not None:
-            raise nothing
+        if not (options.config / FLEET.filename).exists():
+            text = f"{options.config}: no {FLEET.filename} is in this folder ('--config DIR')"
+            raise UserError(text, "no_configuration", folder=options.config)
         config = FLEET.load(options.config)
         if not config.servers:
             text = f"{options.config / FLEET.filename}: servers: names no NATS server"

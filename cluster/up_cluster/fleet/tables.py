@@ -14,9 +14,14 @@ def list_table(answer: dict[str, Any]) -> list[str]:
     for each in answer["members"]:
         state = "draining" if each["is_draining"] else "ready"
         free, labels = str(each.get("free", "")), ",".join(each.get("labels", ()))
-        count = str(len(each["aircraft"]))
+        count = str(sum(craft["state"] != "offline" for craft in each["aircraft"]))
         rows.append((each["id"], each["kind"], each["host"], state, count, free, labels))
-    lines = table(head, rows).splitlines()
+    return [*table(head, rows).splitlines(), *_missing(answer)]
+
+
+def _missing(answer: dict[str, Any]) -> list[str]:
+    """Return the entries that no member of the answer has."""
+    lines = [] if answer["members"] else ["no member of this tenant has answered"]
     for each in answer["lost"]:
         lines.append(f"{each['aircraft']}: {each['kind']} of {each['id']}, which does not answer")
     lines += [f"{name}: wanted, no runner has it" for name in answer["orphans"]]
@@ -36,7 +41,8 @@ def usage_table(answer: dict[str, Any]) -> list[str]:
     """Return what members and the aircraft at each use, and the tenant's sums and quotas."""
     rows: list[tuple[str, ...]] = []
     for each in answer["members"]:
-        rows.append((each["id"], "", each["kind"], *_usage(each), ""))
+        state = f"{each['kind']}, draining" if each["is_draining"] else each["kind"]
+        rows.append((each["id"], "", state, *_usage(each), ""))
         for craft in (*each["aircraft"], *each.get("guests", ())):
             grounds = str(craft.get("grounds", ""))
             rows.append(("", craft["aircraft"], craft["state"], *_usage(craft), grounds))
@@ -51,7 +57,8 @@ def usage_table(answer: dict[str, Any]) -> list[str]:
         sums.append((tenant["name"], "mb_per_hour" if is_bytes else kind, used, most))
     head = ("MEMBER", "AIRCRAFT", "STATE", "CPU s", "MB", "RX MB", "GROUNDS")
     of_tenant = table(("TENANT", "KIND", "USED", "QUOTA"), sums)
-    return [*table(head, rows).splitlines(), "", *of_tenant.splitlines()]
+    lines = [*table(head, rows).splitlines(), *_missing(answer)]
+    return [*lines, "", *of_tenant.splitlines()]
 
 
 def _usage(row: dict[str, Any]) -> tuple[str, str, str]:

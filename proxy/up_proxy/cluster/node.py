@@ -108,6 +108,7 @@ class ClusterNode:
     def drain(self) -> None:
         """Leave every aircraft to the other nodes, and stay connected."""
         self.on_drain()
+        _log.info("drains: the ports are closed, aircraft go to other nodes", code="draining")
         for session in list(self._sessions.values()):
             session.drain()
 

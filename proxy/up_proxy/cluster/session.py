@@ -234,7 +234,7 @@ class ClusterSession(AircraftSession):
         self.grounds.replace(())
         self.grounds.lease.release()
         self._remotes.clear()
-        self._shown_online, self._shown_owner = False, None
+        self.report_left()
         self.send_list()
 
     def _subscribe_data(self, subject: str, on_message: Any) -> None:

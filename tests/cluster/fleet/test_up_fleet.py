@@ -77,6 +77,8 @@ def test_runners_are_listed_drained_and_their_instances_stopped(server, short_pa
         alone = other.ask(aircraft="alone", labels=[pool.label_of(other)])
         pool.kill_host(pool.host_of(alone))
         until(lambda: pool.figure(host, "orphans") == 1, "the orphan")
+        (place,) = fleet.ask("where", "alone")["places"]
+        assert (place["kind"], place["state"]) == ("runner", "wanted")
         assert fleet.ask("list")["orphans"] == ["alone"]
         assert fleet.ask("kick", "alone", "--instance")["done"] == "not_wanted"
         until(lambda: pool.figure(host, "orphans") == 0, "it is forgotten")
@@ -104,6 +106,11 @@ def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, 
                 (200, "live"),
                 (503, "draining"),
             ]
+            logged = {"draining", "aircraft_left"}
+            until(lambda: logged <= set(nodes.programs[0].codes()), "the log")
+            # It is nowhere, and no silent member has it.
+            assert fleet.refused("where", "glider-1") == (1, ["unknown_aircraft"])
+            assert fleet.ask("list")["lost"] == []
         new, _ = nodes.aircraft(1, "glider-1")
         with new:
             assert nodes.programs[0].process.poll() is None
@@ -155,6 +162,12 @@ def test_another_tenant_sees_and_changes_nothing(server, tmp_path, fleet, a):
 def test_an_account_that_no_cluster_uses(server, tmp_path, login, code):
     text = f"credentials: {credentials(tmp_path / 'user', login)}\n"
     assert UpFleet(tmp_path / "fleet", server.urls, text).refused("list") == (1, [code])
+
+
+@pytest.mark.parametrize("login", ["a:two", ""])
+def test_a_refused_login_is_told(server, tmp_path, login):
+    text = f"credentials: {credentials(tmp_path / 'user', login)}\n" if login else ""
+    assert UpFleet(tmp_path / "fleet", server.urls, text).refused("list") == (1, ["nats_refused"])
 
 
 def test_a_server_without_jetstream(tmp_path):

@@ -261,7 +261,8 @@ def test_an_instance_sleeps_without_its_phone_and_the_next_request_wakes_it(serv
         assert pool.figure(other, "orphans") == 0 and pool.figure(other, "asleep") == 1
         fleet = UpFleet(short_path / "fleet", servers.urls, f"tenant: {pool.tenant}\n")
         assert fleet.ask("list")["asleep"] == ["sleeper"]
-        assert fleet.refused("where", "sleeper") == (1, ["asleep"])
+        (place,) = fleet.ask("where", "sleeper")["places"]
+        assert (place["kind"], place["state"], place["id"]) == ("runner", "asleep", "")
         # At another host, by a request that names nothing but the aircraft.
         assert host.terminate() == 0
         second = other.ask(aircraft="sleeper", labels=["host1"])

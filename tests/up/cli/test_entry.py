@@ -1,5 +1,6 @@
 """What every program does before its own code runs."""
 
+import json
 import os
 import signal
 import subprocess
@@ -7,6 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from tests.support.waiting import HANG_S
 
 ROOT = Path(__file__).parents[3]
 HOOKED = """\
@@ -74,3 +77,32 @@ def test_an_unknown_format_of_the_log_is_wrong_use(program, tmp_path):
     )
     assert process.returncode == 2 and process.stdout == ""
     assert process.stderr.count("\n") == 1 and "UP_LOG_FORMAT='JSON'" in process.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "output", "codes"),
+    [
+        (("modules",), "/dev/full", ["system_error"]),
+        (("modules",), "a closed pipe", []),
+        (("schemas", "UpFile/here"), os.devnull, ["system_error"]),
+    ],
+)
+def test_what_cannot_be_written_is_one_sentence_and_a_closed_pipe_none(
+    tmp_path, words, output, codes
+):
+    (tmp_path / "UpFile").write_text("")
+    read, write = os.pipe()
+    os.close(read)
+    if output.startswith("/"):
+        os.dup2(os.open(output, os.O_WRONLY), write)
+    done = subprocess.run(
+        [sys.executable, "-m", "up.cli", *words],
+        cwd=tmp_path,
+        env=os.environ | {"UP_LOG_FORMAT": "json"},
+        stdout=write,
+        stderr=subprocess.PIPE,
+        timeout=HANG_S,
+    )
+    os.close(write)
+    said = [json.loads(line)["fields"]["code"] for line in done.stderr.splitlines()]
+    assert (done.returncode, said) == (1, codes)

@@ -73,13 +73,6 @@ def test_a_broken_upfile_has_its_place(up, tmp_path):
     assert outcome.problem["file"] == str(tmp_path / "UpFile")
 
 
-def test_a_folder_that_cannot_be_written_is_one_sentence(up, tmp_path):
-    (tmp_path / "UpFile").write_text("")
-    (tmp_path / "taken").write_text("")
-    outcome = up("schemas", "taken/here", as_json=True)
-    assert (outcome.status, outcome.problem["code"]) == (1, "system_error")
-
-
 @pytest.mark.parametrize(
     ("origin", "words"),
     [
@@ -112,20 +105,6 @@ def test_update_follows_the_installation(up, monkeypatch, origin, words):
     monkeypatch.setattr(update.importlib.metadata, "distribution", lambda name: Installed())
     command = up("update", "--dry-run").out.splitlines()[-1]
     assert shlex.split(command)[4:] == ["install", *words]
-
-
-def test_a_reader_that_leaves_early_is_no_traceback(tmp_path):
-    (tmp_path / "UpFile").write_text("")
-    process = subprocess.Popen(
-        [sys.executable, "-m", "up.cli", "-f", str(tmp_path), "modules"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-    )
-    process.stdout.close()
-    errors = process.stderr.read()
-    process.stderr.close()
-    process.wait(120)
-    assert b"Traceback" not in errors
 
 
 def test_the_prompt_of_a_closed_stdin_does_not_hang(up, tmp_path, monkeypatch):
