@@ -33,6 +33,7 @@ test("a stale reading is greyed out, while the others are live", async () => {
   for (const { key, freshness } of await shown(ground, "altitude")) {
     assert.equal(freshness, "live", key);
   }
+  assert.equal(await ground.attribute('[data-key="age_ms.flight"]', "data-freshness"), "none", "its age was never told");
   assert.equal(await ground.attribute("html", "data-aircraft-state"), "live");
   flight.tell({ data: { orientation: null, age_ms: { ...AGES, orientation: null } } });
   await ground.until(

@@ -34,8 +34,8 @@ export function mount(element, store) {
     update() {
       const isTime = pace.isTime(store.now_s);
       for (const { reading, source, age, state } of lines) {
-        const freshness = store.freshness(reading);
         const age_s = store.age_s(reading);
+        const freshness = age_s === null ? "none" : store.freshness(reading);
         setText(source, store.text(`source.${reading}`) ?? UNKNOWN);
         if (isTime || age_s === null) {
           setText(age, ageText(age_s));
