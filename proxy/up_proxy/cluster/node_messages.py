@@ -20,6 +20,7 @@ _MAX_HEADER = 32 + 3 * (1 + _MAX_DIGITS)
 _tuple_new = tuple.__new__
 """Without the call that a NamedTuple makes in Python."""
 _NAME = re.compile(r"[!-~]{1,32}", re.ASCII)
+_BEACON = b'{"online"'
 _JSON = json.JSONEncoder(separators=(",", ":"))
 
 
@@ -118,6 +119,11 @@ class GroundLine:
 
 def parse(body: bytes) -> GroundList | Beacon | GroundLine:
     """Return what a control message states. Raises MalformedError."""
+    # A beacon is repeated until something changes.
+    return _parse_again(body) if body.startswith(_BEACON) else _parse(body)
+
+
+def _parse(body: bytes) -> GroundList | Beacon | GroundLine:
     try:
         fields: dict[str, Any] = json.loads(body)
         if "grounds" in fields:
@@ -129,6 +135,9 @@ def parse(body: bytes) -> GroundList | Beacon | GroundLine:
         return Beacon(bool(fields["online"]), None if owner is None else _number(owner), known)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         raise MalformedError(str(error)) from None
+
+
+_parse_again = lru_cache(1024)(_parse)
 
 
 def pack_batch(entries: Iterable[tuple[str, int, bytes]]) -> bytes:

@@ -75,7 +75,7 @@ class ClusterSession(AircraftSession):
         return self.is_home and super().lacks_control(now_s)
 
     def is_deserted(self, now_s: float) -> bool:
-        return super().is_deserted(now_s) and not self.guests.connections and not self._claims
+        return not self.guests.connections and not self._claims and super().is_deserted(now_s)
 
     def close(self) -> None:
         # Of many that end together each waits for its turn.
