@@ -94,8 +94,8 @@ class NatsClient:
         self._requests: dict[str, Deferred[nats.Message]] = {}
         self.dropped = 0
         """Messages that were published but never left."""
-        self.failure: tuple[str, str] | None = None
-        """Code and reason of the last failed connection; None after a good one."""
+        self.failures: deque[tuple[str, str]] = deque(maxlen=len(servers))
+        """Code and reason of the last failed connections, one of each server, since a good one."""
 
     def start(self) -> None:
         self.subscribe(f"{self._inbox}.*", self._on_answer)
@@ -217,7 +217,7 @@ class NatsClient:
     def _log_lost(self, server: Server | str, code: str, reason: object) -> None:
         where = server if isinstance(server, str) else f"{server.host}:{server.port}"
         text = str(reason).strip().rstrip(".")
-        self.failure = code, text
+        self.failures.append((code, text))
         self._limited.log(
             _log.warn,
             "no connection to NATS at {server}: {reason}",
@@ -241,7 +241,8 @@ class NatsClient:
 
     def on_ready(self, link: "NatsLink") -> None:
         """Use a link whose server has accepted CONNECT."""
-        self._link, self._ready_s, self.failure = link, self._reactor.seconds(), None
+        self._link, self._ready_s = link, self._reactor.seconds()
+        self.failures.clear()
         subjects = [(subject, sid) for sid, (subject, _) in self._subscriptions.items()]
         link.send(b"".join(itertools.starmap(nats.subscribe, subjects)))
         _log.info("connected to NATS server {server}", code="nats_connected", server=link.server)

@@ -82,7 +82,7 @@ def test_no_password_goes_to_a_server_that_requires_tls():
     link.dataReceived(b'INFO {"tls_required":true}\r\n')
     assert transport.value() == b"" and transport.disconnected
     link.connectionLost(Failure(ConnectionDone()))
-    assert client.failure[0] == "nats_refused"
+    assert [code for code, _ in client.failures] == ["nats_refused"]
 
 
 def test_subscriptions_that_change_during_the_handshake():

@@ -122,17 +122,17 @@ class Fleet:
         return result[0]
 
     async def _connect(self) -> None:
-        """Raise FleetError without a connection; one that NATS refuses is not tried again."""
-        client = self._client
+        """Raise FleetError without a connection: at once if each server refuses it."""
+        client, failures = self._client, self._client.failures
         client.start()
 
         def is_decided() -> bool:
-            code = client.failure[0] if client.failure else ""
-            return client.is_connected or code == "nats_refused" or code.startswith("tls_")
+            refused = [code == "nats_refused" or code.startswith("tls_") for code, _ in failures]
+            return client.is_connected or (len(refused) == failures.maxlen and all(refused))
 
         await self._wait_for(is_decided, CONNECT_LIMIT_S)
         if not client.is_connected:
-            code, reason = client.failure or ("no_connection", "no answer")
+            code, reason = failures[-1] if failures else ("no_connection", "no answer")
             text = f"no connection to NATS at {self._config.servers}: {reason}"
             raise FleetError(f"{text} (fleet.yml: servers, credentials, tls)", code)
 
