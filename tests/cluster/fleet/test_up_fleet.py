@@ -118,6 +118,10 @@ def test_proxies_are_drained_and_aircraft_disconnected(server, tmp_path, fleet, 
                 nodes.aircraft(0, "another")
             drained = next(r for r in fleet.ask("list")["members"] if r["id"] == place["id"])
             assert (drained["is_draining"], drained["aircraft"]) == (True, [])
+            # A node that has ended left its aircraft free.
+            assert nodes.programs[1].end() == 0
+            assert fleet.refused("where", "glider-1") == (1, ["unknown_aircraft"])
+            assert fleet.ask("list")["lost"] == []
 
 
 def test_the_list_after_the_death_of_a_nats_server(tmp_path):
