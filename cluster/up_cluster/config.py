@@ -61,11 +61,11 @@ class FleetConfig:
         for text in map(str.strip, self.servers.split(",") if self.servers else ()):
             match = _SERVER.fullmatch(text)
             if "@" in text:
-                yield "servers", "may have no password: it belongs into the file of 'credentials'"
+                yield "servers", "has a password: put it into the file of 'credentials'"
             elif match is None or not 0 < int(match[3] or DEFAULT_PORT) < 65536:
                 yield "servers", f"must be as in nats://a:4222,nats://b:4222, not '{text}'"
             elif text.startswith("tls:") and not self.tls:
-                yield "servers", f"{text} needs the folder 'tls'"
+                yield "servers", f"{text} needs 'tls', the folder of the certificates"
 
     def addresses(self) -> list[Server]:
         found = (_SERVER.fullmatch(text.strip()) for text in self.servers.split(","))

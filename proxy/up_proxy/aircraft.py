@@ -154,12 +154,6 @@ class AircraftSession(Owner):
             newcomer.send(presence.encode())
             newcomer.send(owner.encode())
 
-    def report_left(self) -> None:
-        """Log that another node of a cluster may have the aircraft; grounds hear the rest anew."""
-        if self._shown_online:
-            self._report("aircraft_left", "aircraft {aircraft} has left this node")
-        self._shown_online, self._shown_owner = False, None
-
     def report_watchers(self, *, is_news: bool = True) -> None:
         """Tell the aircraft what its grounds are: at a change, and when one of them lacks a key.
 

@@ -52,4 +52,6 @@ def start(module: str, *arguments: Any) -> int:
 
 def _drop_output() -> None:
     """Let the end of the program write nowhere what could not be written."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for descriptor in (1, 2):
+        os.dup2(nowhere, descriptor)

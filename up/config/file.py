@@ -111,11 +111,15 @@ def load_all(folder: Path, files: Iterable[ConfigFile[Any]]) -> dict[ConfigFile[
     return values
 
 
-def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> UserError | None:
+def no_configuration(
+    folder: Path,
+    files: Iterable[ConfigFile[Any]],
+    advice: str = "start with --defaults to use the defaults",
+) -> UserError | None:
     """Return the error for a folder without any of the files: its name is perhaps mistyped."""
     if any((folder / file.filename).exists() for file in files):
         return None
-    text = f"{folder}: no configuration file is here; start with --defaults to use the defaults"
+    text = f"{folder}: no configuration file is here; {advice}"
     return UserError(text, "no_configuration", folder=folder)
 
 

@@ -196,9 +196,10 @@ class Fleet:
         for lease in leases:
             member = members.get(lease["id"], {})
             rows = (each for each in member.get("aircraft", ()) if each["aircraft"] == aircraft)
-            row = next(rows, {"state": "no answer"} if not member and occupied([lease]) else None)
-            if row is None:
-                continue
+            row = next(rows, None)
+            if row is None and (member or "is_free" in lease):
+                continue  # it has left
+            row = row or {"state": "no answer"}
             place = {"id": lease["id"], "host": member.get("host", lease["host"])}
             places.append({**row, "kind": KINDS[lease["kind"]], **place})
         if all(each["kind"] != "runner" for each in places):

@@ -18,6 +18,7 @@ from up.cli.option_parser import (
     add_json_option,
     bounded_number,
 )
+from up.config import no_configuration
 from up.errors import UserError
 from up.log import start_logging
 from up.output import echo, print_problems
@@ -111,9 +112,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
     options = make_parser().parse_args(arguments)
     try:
-        if not (options.config / FLEET.filename).exists():
-            text = f"{options.config}: no {FLEET.filename} is in this folder ('--config DIR')"
-            raise UserError(text, "no_configuration", folder=options.config)
+        if (nothing := no_configuration(options.config, [FLEET], "set '--config DIR'")) is not None:
+            raise nothing
         config = FLEET.load(options.config)
         if not config.servers:
             text = f"{options.config / FLEET.filename}: servers: names no NATS server"

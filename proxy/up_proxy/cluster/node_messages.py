@@ -119,8 +119,8 @@ class GroundLine:
 
 def parse(body: bytes) -> GroundList | Beacon | GroundLine:
     """Return what a control message states. Raises MalformedError."""
-    # A beacon is repeated until something changes.
-    return _parse_again(body) if body.startswith(_BEACON) else _parse(body)
+    # Each second a home sends the same beacon, until something changes.
+    return _parse_cached(body) if body.startswith(_BEACON) else _parse(body)
 
 
 def _parse(body: bytes) -> GroundList | Beacon | GroundLine:
@@ -137,7 +137,7 @@ def _parse(body: bytes) -> GroundList | Beacon | GroundLine:
         raise MalformedError(str(error)) from None
 
 
-_parse_again = lru_cache(1024)(_parse)
+_parse_cached = lru_cache(1024)(_parse)
 
 
 def pack_batch(entries: Iterable[tuple[str, int, bytes]]) -> bytes:

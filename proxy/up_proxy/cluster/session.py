@@ -113,8 +113,7 @@ class ClusterSession(AircraftSession):
         if self.lease is None:
             return await self._claim_from_others(token)
         if self.air_lease.is_resumed_by(token):
-            assert token is not None
-            return token
+            return token or ""
         if not self.air_lease.is_free(self._poller.tick()):
             raise refusal(token)
         self._take()
@@ -234,7 +233,9 @@ class ClusterSession(AircraftSession):
         self.grounds.replace(())
         self.grounds.lease.release()
         self._remotes.clear()
-        self.report_left()
+        if self._shown_online:
+            self._report("aircraft_left", "aircraft {aircraft} has left this node")
+        self._shown_online, self._shown_owner = False, None
         self.send_list()
 
     def _subscribe_data(self, subject: str, on_message: Any) -> None:

@@ -94,20 +94,19 @@ class PythonHandset:
         if orientation == "tcp":
             found = self._find_orientation
             self._services.append(self._service(found, lambda: _OrientationLink(phone, self)))
-        self._is_udp = orientation == "udp"
-        self._has_orientation = orientation != "off"
+        self._orientation_by = orientation
 
     @property
     def is_connected(self) -> bool:
         """Return whether all of its links are open."""
         phone = self._phone
-        has_orientation = phone.send_orientation is not None or not self._has_orientation
+        has_orientation = self._orientation_by == "off" or phone.send_orientation is not None
         return phone.send is not None and has_orientation
 
     def start(self) -> None:
         for service in self._services:
             service.startService()
-        if self._is_udp:
+        if self._orientation_by == "udp":
             self._udp = self._reactor.listenUDP(0, DatagramProtocol())
             self._phone.send_orientation = self._send_datagram
 

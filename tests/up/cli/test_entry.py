@@ -94,7 +94,8 @@ def test_what_cannot_be_written_is_one_sentence_and_a_closed_pipe_none(
     read, write = os.pipe()
     os.close(read)
     if output.startswith("/"):
-        os.dup2(os.open(output, os.O_WRONLY), write)
+        os.close(write)
+        write = os.open(output, os.O_WRONLY)
     done = subprocess.run(
         [sys.executable, "-m", "up.cli", *words],
         cwd=tmp_path,
