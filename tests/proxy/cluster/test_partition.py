@@ -1,6 +1,7 @@
 """The host of the leader of the leases, home of aircraft, loses the other hosts for 10 s."""
 
 import time
+from functools import partial
 
 import pytest
 
@@ -53,9 +54,10 @@ async def partition(network, traffic, cut):
     await sleep(max(0.0, began_s + PARTITION_S - time.monotonic()))
     assert refused.refusals.keys() == {"cluster"}
     assert not refused.connects
-    for ground in (from_local, from_beside):
+    for name, ground in (("local", from_local), ("beside", from_beside)):
         count = len(ground.acknowledged)
-        await until(lambda ground=ground, count=count: len(ground.acknowledged) > count, LIMIT_S)
+        is_answered = partial(lambda each, count: len(each.acknowledged) > count, ground, count)
+        await until(is_answered, LIMIT_S, name)
 
     network.heal()
     from_away.frames.reset()

@@ -50,9 +50,9 @@ def pool(shared_pool):
 
 def test_any_runner_answers_for_the_one_host_of_an_aircraft(pool):
     def started():
-        """Return the answer, unless the servers elect a leader, as busy ones may."""
+        """Return the answer, unless busy servers elect a leader, or a busy runner is not heard."""
         answer = pool.runners[0].ask(aircraft="a.b-1", labels=["host1"])
-        return None if answer.get("code") == "cluster" else answer
+        return None if answer.get("code") in ("cluster", "no_runner") else answer
 
     first = until(started, "the first instance")
     assert (first["running"], first.get("code"), first.get("host")) == (True, None, "127.0.0.2")
